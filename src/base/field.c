@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/field.h"
+
+#include "base/error.h"
+
+#include <stdint.h>
+#include <string.h>
+
+size_t field_size(enum field_type type)
+{
+    switch (type) {
+    case FIELD_DOUBLE:
+        return sizeof(double);
+    case FIELD_FLOAT:
+        return sizeof(float);
+    case FIELD_INT64:
+        return sizeof(int64_t);
+    case FIELD_INT32:
+        return sizeof(int32_t);
+    case FIELD_UINT8:
+        return sizeof(uint8_t);
+    }
+    return 0;
+}
+
+int field_read(const struct field_group *group, const struct field *field, void *destination)
+{
+    const size_t size = field_size(field->type), components = (size_t)field->components;
+    const size_t count = *group->count;
+
+    if (!field->data[0] && field->fill)
+        return field->fill(group->owner, field, destination);
+    if (count == 0)
+        return STATUS_OK; // arrays of an empty block may not exist yet
+    if (components == 1 || !field->data[1]) {
+        memcpy(destination, field->data[0], count * components * size);
+        return STATUS_OK;
+    }
+    for (size_t c = 0; c < components; c++) {
+        const char *from = field->data[c];
+        char *to = (char *)destination + c * size;
+        for (size_t i = 0; i < count; i++)
+            memcpy(to + i * components * size, from + i * size, size);
+    }
+    return STATUS_OK;
+}
+
+const struct field *field_find(const struct field_group *group, const char *name)
+{
+    for (size_t i = 0; i < group->n_fields; i++)
+        if (strcmp(group->fields[i].name, name) == 0)
+            return &group->fields[i];
+    return NULL;
+}
