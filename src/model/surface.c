@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/surface.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+static int surface_motion_create(struct surface_motion *motion, size_t n)
+{
+    CHECK_MEMORY(motion->x = memory_create(n, sizeof *motion->x));
+    CHECK_MEMORY(motion->v = memory_create(n, sizeof *motion->v));
+    CHECK_MEMORY(motion->a = memory_create(n, sizeof *motion->a));
+    return 0;
+}
+
+static void surface_motion_reset(struct surface_motion *motion)
+{
+    memory_free(motion->x);
+    memory_free(motion->v);
+    memory_free(motion->a);
+}
+
+static void surface_motion_copy(struct surface_motion *to, const struct surface_motion *from, size_t n)
+{
+    to->t = from->t;
+    memcpy(to->x, from->x, n * sizeof *to->x);
+    memcpy(to->v, from->v, n * sizeof *to->v);
+    memcpy(to->a, from->a, n * sizeof *to->a);
+}
+
+/** Copy reference places, facets and owners of the points from the definition. */
+static void fill_definition(struct surface *s)
+{
+    const struct model_surface *d = s->definition;
+    if (d->kind != SURFACE_FACETS) {
+        memcpy(s->X[0], d->centre, sizeof s->X[0]);
+        s->mesh[0] = s->mesh_node[0] = -1;
+        return;
+    }
+    memcpy(s->X, d->built.points, s->n_points * sizeof *s->X);
+    memcpy(s->nodes, d->built.nodes, s->n_facets * sizeof *s->nodes);
+    memcpy(s->mesh, d->built_mesh, s->n_points * sizeof *s->mesh);
+    memcpy(s->mesh_node, d->built_node, s->n_points * sizeof *s->mesh_node);
+    for (size_t i = 0; i < s->n_points; ++i)
+        s->coupled |= s->mesh[i] >= 0;
+}
+
+static int allocate(struct surface *s)
+{
+    size_t n = s->n_points;
+    CHECK_MEMORY(s->X = memory_create(n, sizeof *s->X));
+    CHECK_MEMORY(s->nodes = memory_create(s->n_facets, sizeof *s->nodes));
+    CHECK_MEMORY(s->mesh = memory_create(n, sizeof *s->mesh));
+    CHECK_MEMORY(s->mesh_node = memory_create(n, sizeof *s->mesh_node));
+    CALL(surface_motion_create(&s->level[0], n));
+    CALL(surface_motion_create(&s->level[1], n));
+    CALL(surface_motion_create(&s->now, n));
+    CALL(surface_motion_create(&s->trial, n));
+    CHECK_MEMORY(s->load = memory_create(n, sizeof *s->load));
+    CHECK_MEMORY(s->load_previous = memory_create(n, sizeof *s->load_previous));
+    CHECK_MEMORY(s->impulse = memory_create(n, sizeof *s->impulse));
+    return 0;
+}
+
+/** Places of the prescribed points at time @p t. */
+static void prescribe(const struct surface *s, double t, struct surface_motion *level)
+{
+    const struct motion *motion = &s->definition->motion;
+    struct motion_frame frame;
+    motion_frame_at(motion, t, &frame);
+    for (size_t i = 0; i < s->n_points; ++i) {
+        if (s->mesh[i] >= 0)
+            continue;
+        if (motion->kind == MOTION_FIELD)
+            motion_at(motion, s->X[i], t, level->x[i], level->v[i], level->a[i]);
+        else
+            motion_frame_point(&frame, s->X[i], level->x[i], level->v[i], level->a[i]);
+    }
+    level->t = t;
+}
+
+/** Mesh points at the start: X plus the mesh's initial displacement, with its initial velocity. */
+static void place_mesh_points(const struct surface *s, const struct model *model,
+                              struct surface_motion *level)
+{
+    for (size_t i = 0; i < s->n_points; ++i) {
+        if (s->mesh[i] < 0)
+            continue;
+        const struct model_mesh *mesh = &model->meshes[s->mesh[i]];
+        for (int k = 0; k < 3; ++k) {
+            const struct expression *d = mesh->displacement[k], *v = mesh->velocity[k];
+            level->x[i][k] = s->X[i][k] + (d ? expression_value(d, s->X[i], 0.0) : 0.0);
+            level->v[i][k] = v ? expression_value(v, s->X[i], 0.0) : 0.0;
+        }
+    }
+}
+
+static int fill_displacement(const void *owner, const struct field *field, void *destination)
+{
+    (void)field;
+    const struct surface *s = owner;
+    double(*d)[3] = destination;
+    for (size_t i = 0; i < s->n_points; ++i)
+        for (int k = 0; k < 3; ++k)
+            d[i][k] = s->level[1].x[i][k] - s->X[i][k];
+    return 0;
+}
+
+static int register_fields(struct surface *s)
+{
+    const struct field list[] = {
+        {"Place", "m", FIELD_DOUBLE, 3, FIELD_STATE, {s->level[1].x}, NULL},
+        {"Displacement", "m", FIELD_DOUBLE, 3, FIELD_OUTPUT, {NULL}, fill_displacement},
+        {"Velocity", "m/s", FIELD_DOUBLE, 3, FIELD_STATE | FIELD_OUTPUT, {s->level[1].v}, NULL},
+        {"Acceleration", "m/s^2", FIELD_DOUBLE, 3, FIELD_STATE | FIELD_OUTPUT, {s->level[1].a}, NULL},
+        {"Load", "N", FIELD_DOUBLE, 3, FIELD_OUTPUT, {s->load}, NULL},
+        {"LoadPrevious", "N", FIELD_DOUBLE, 3, FIELD_STATE, {s->load_previous}, NULL},
+        {"MeanVelocity", "m/s", FIELD_DOUBLE, 3, FIELD_STATE, {s->now.v}, NULL},
+        {"MeanAcceleration", "m/s^2", FIELD_DOUBLE, 3, FIELD_STATE, {s->now.a}, NULL},
+    };
+    memcpy(s->field_list, list, sizeof list);
+    char *name = memory_print("surface-%s", s->definition->name);
+    CHECK_MEMORY(name);
+    s->fields = (struct field_group){name, s, &s->n_points, s->field_list, sizeof list / sizeof *list};
+    return 0;
+}
+
+int surface_create(struct surface **surface, const struct model *model, int index, double t)
+{
+    struct surface *s = memory_create(1, sizeof *s);
+    *surface = NULL;
+    CHECK_MEMORY(s);
+    const struct model_surface *d = &model->surfaces[index];
+    bool facets = d->kind == SURFACE_FACETS;
+    s->definition = d;
+    s->dim = model->dim;
+    s->n_points = facets ? d->built.n_points : 1;
+    s->n_facets = facets ? d->built.n_facets : 0;
+    int status = allocate(s);
+    if (!status)
+        status = register_fields(s);
+    if (status) {
+        surface_destroy(s);
+        return status;
+    }
+    fill_definition(s);
+    s->moving = s->coupled || motion_moves(&d->motion);
+    place_mesh_points(s, model, &s->level[1]);
+    prescribe(s, t, &s->level[1]);
+    surface_motion_copy(&s->level[0], &s->level[1], s->n_points);
+    surface_motion_copy(&s->now, &s->level[1], s->n_points);
+    surface_motion_copy(&s->trial, &s->level[1], s->n_points);
+    *surface = s;
+    return 0;
+}
+
+void surface_destroy(struct surface *surface)
+{
+    if (!surface)
+        return;
+    memory_free(surface->X);
+    memory_free(surface->nodes);
+    memory_free(surface->mesh);
+    memory_free(surface->mesh_node);
+    surface_motion_reset(&surface->level[0]);
+    surface_motion_reset(&surface->level[1]);
+    surface_motion_reset(&surface->now);
+    surface_motion_reset(&surface->trial);
+    memory_free(surface->load);
+    memory_free(surface->load_previous);
+    memory_free(surface->impulse);
+    memory_free(surface->added_mass);
+    memory_free((char *)surface->fields.name);
+    memory_free(surface);
+}
+
+void surface_open(struct surface *surface, double t1)
+{
+    size_t n = surface->n_points;
+    double dt = surface->level[1].t - surface->level[0].t;
+    if (surface->rule == SURFACE_MEAN && dt > 0.0)
+        for (size_t i = 0; i < n; ++i)
+            for (int k = 0; k < 3; ++k) {
+                surface->now.v[i][k] = (surface->level[1].x[i][k] - surface->level[0].x[i][k]) / dt;
+                surface->now.a[i][k] = (surface->level[1].v[i][k] - surface->level[0].v[i][k]) / dt;
+            }
+    surface_motion_copy(&surface->level[0], &surface->level[1], n);
+    if (surface->moving)
+        prescribe(surface, t1, &surface->level[1]);
+    surface->level[1].t = t1;
+    memset(surface->impulse, 0, n * sizeof *surface->impulse);
+}
+
+void surface_at(struct surface *surface, double t)
+{
+    const struct surface_motion *l0 = &surface->level[0], *l1 = &surface->level[1];
+    size_t n = surface->n_points;
+    if (surface->rule == SURFACE_MEAN) {
+        memcpy(surface->now.x, l0->x, n * sizeof *l0->x);
+    } else if (t == l1->t) {
+        surface_motion_copy(&surface->now, l1, n);
+    } else if (t == l0->t || l1->t == l0->t) {
+        surface_motion_copy(&surface->now, l0, n);
+    } else {
+        double s = (t - l0->t) / (l1->t - l0->t), r = 1.0 - s;
+        for (size_t i = 0; i < n; ++i)
+            for (int k = 0; k < 3; ++k) {
+                surface->now.x[i][k] = r * l0->x[i][k] + s * l1->x[i][k];
+                surface->now.v[i][k] = r * l0->v[i][k] + s * l1->v[i][k];
+                surface->now.a[i][k] = r * l0->a[i][k] + s * l1->a[i][k];
+            }
+    }
+    surface->now.t = t;
+}
+
+void surface_clear_load(struct surface *surface)
+{
+    memset(surface->load, 0, surface->n_points * sizeof *surface->load);
+    memset(surface->moment, 0, sizeof surface->moment);
+}
+
+void surface_add_impulse(struct surface *surface, double dt, enum surface_load kind)
+{
+    for (size_t i = 0; i < surface->n_points; ++i)
+        for (int k = 0; k < 3; ++k) {
+            double f = surface->load[i][k];
+            surface->impulse[i][k] +=
+                kind == SURFACE_LOAD_MEAN ? dt * f : 0.5 * dt * (surface->load_previous[i][k] + f);
+            surface->load_previous[i][k] = f;
+        }
+}
+
+void surface_added_mass_apply(const struct surface *surface, const double (*acceleration)[3],
+                              double (*result)[3])
+{
+    memset(result, 0, surface->n_points * sizeof *result);
+    for (size_t c = 0; c < surface->n_added_mass; ++c) {
+        const struct added_mass_contact *contact = &surface->added_mass[c];
+        double a[3] = {0.0, 0.0, 0.0}, f[3];
+        for (int j = 0; j < 4 && contact->columns[j] >= 0; ++j)
+            for (int k = 0; k < 3; ++k)
+                a[k] += contact->column_weights[j] * acceleration[contact->columns[j]][k];
+        for (int k = 0; k < 3; ++k)
+            f[k] = contact->tensor[k][0] * a[0] + contact->tensor[k][1] * a[1] + contact->tensor[k][2] * a[2];
+        for (int j = 0; j < 4 && contact->rows[j] >= 0; ++j)
+            for (int k = 0; k < 3; ++k)
+                result[contact->rows[j]][k] += contact->row_weights[j] * f[k];
+    }
+}
+
+void surface_total_load(const struct surface *surface, const double centre[3], double force[3],
+                        double moment[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        force[k] = 0.0;
+        moment[k] = surface->moment[k];
+    }
+    for (size_t i = 0; i < surface->n_points; ++i) {
+        const double *f = surface->load[i];
+        double r[3];
+        for (int k = 0; k < 3; ++k) {
+            r[k] = surface->now.x[i][k] - centre[k];
+            force[k] += f[k];
+        }
+        moment[0] += r[1] * f[2] - r[2] * f[1];
+        moment[1] += r[2] * f[0] - r[0] * f[2];
+        moment[2] += r[0] * f[1] - r[1] * f[0];
+    }
+}

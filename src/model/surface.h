@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef MODEL_SURFACE_H
+#define MODEL_SURFACE_H
+
+#include "base/field.h"
+#include "model/model.h"
+
+#include <stdint.h>
+
+/** How surface_at finds the surface between the levels. */
+enum surface_rule { SURFACE_INTERPOLATE, SURFACE_MEAN };
+
+/** Motion of all points at one time: rows of 3. */
+struct surface_motion {
+    double t;
+    double (*x)[3], (*v)[3], (*a)[3];
+};
+
+/** Derivative of the load by the surface's acceleration (numerics.md section 4): per contact a tensor whose
+ * rows are spread by the shape functions of the facet that takes the load and whose columns by those of the
+ * facet that gave the acceleration. f += -T a is the fluid's reaction: surface_added_mass_apply returns +T a.
+ */
+struct added_mass_contact {
+    int32_t rows[4], columns[4]; /**< point numbers, -1 unused */
+    double row_weights[4], column_weights[4];
+    double tensor[3][3]; /**< kg */
+};
+
+/** The only thing fluid and solid share: points, optionally facets or an analytic shape, their motion at the
+ * start and end of the step, and the loads on them. An analytic surface has one point, its centre, with the
+ * load's force; the moment about the centre is in @c moment. Points are interleaved rows of 3; loads are in
+ * double; z = 0 in 2-D. */
+struct surface {
+    const struct model_surface *definition;
+    int dim;
+    size_t n_points, n_facets;
+    double (*X)[3];      /**< reference places */
+    int32_t (*nodes)[4]; /**< facets, oriented as struct facets */
+    int32_t *mesh;       /**< per point: index of the model mesh that moves it, or -1: prescribed */
+    int32_t *mesh_node;  /**< per point: node of that mesh */
+    bool coupled;        /**< some point is moved by a solid */
+    bool moving;         /**< coupled, or its prescribed motion moves */
+    enum surface_rule rule;
+    struct surface_motion level[2];                        /**< start and end of the step */
+    struct surface_motion now;                             /**< as evaluated by surface_at */
+    struct surface_motion trial;                           /**< the solid's answer */
+    double (*load)[3], (*load_previous)[3], (*impulse)[3]; /**< N, N, N s (2-D: per metre of depth) */
+    double moment[3]; /**< analytic surfaces: of the load about the point, N m */
+    size_t n_added_mass, added_mass_capacity;
+    struct added_mass_contact *added_mass;
+    struct field_group fields; /**< named "surface-NAME" */
+    struct field field_list[8];
+};
+
+/** Build surface @p index of the model at time @p t (prescribed points at their places, mesh points at X plus
+ * the mesh's initial displacement, at rest unless the mesh says otherwise). Free with surface_destroy. */
+int surface_create(struct surface **surface, const struct model *model, int index, double t);
+void surface_destroy(struct surface *surface);
+
+/** Level 0 := level 1, level 1 gets time @p t1 with prescribed points evaluated there (mesh points keep level
+ * 1 until the solid predicts); impulse := 0. */
+void surface_open(struct surface *surface, double t1);
+
+/** Fill @c now for time @p t: linear interpolation of x, v, a between the levels (the end times give the
+ * levels bit for bit). */
+void surface_at(struct surface *surface, double t);
+
+/** load := 0, moment := 0. */
+void surface_clear_load(struct surface *surface);
+
+enum surface_load { SURFACE_LOAD_MEAN, SURFACE_LOAD_END };
+/** Add dt f (mean loads) or dt/2 (load_previous + f) (end-of-step loads) to the impulse; then load_previous
+ * := load. */
+void surface_add_impulse(struct surface *surface, double dt, enum surface_load kind);
+
+/** result[i] = sum of T accelerations over the contacts (rows of 3, n_points each); result is overwritten. */
+void surface_added_mass_apply(const struct surface *surface, const double (*acceleration)[3],
+                              double (*result)[3]);
+
+/** Total load, and moment about @p centre (points at @c now). */
+void surface_total_load(const struct surface *surface, const double centre[3], double force[3],
+                        double moment[3]);
+
+#endif

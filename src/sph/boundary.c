@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sph/boundary.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+int boundary_create(struct boundary **boundary, const struct model *model, int index,
+                    struct surface **surfaces, const struct fluid_view *view,
+                    const struct boundary_type *const *types, size_t n_types)
+{
+    struct boundary *b = memory_create(1, sizeof *b);
+    CHECK_MEMORY(b);
+    *boundary = b;
+    b->wall = &model->walls[index];
+    for (size_t k = 0; k < n_types; ++k)
+        if (!strcmp(types[k]->name, b->wall->treatment))
+            b->type = types[k];
+    CHECK(b->type, STATUS_DECK, "%s:%d:%d: error: <wall name=\"%s\">: unknown treatment \"%s\"", model->path,
+          b->wall->where.line, b->wall->where.column, b->wall->name, b->wall->treatment);
+    b->n_surfaces = b->wall->n_surfaces;
+    b->surfaces = memory_create(b->n_surfaces, sizeof(struct surface *));
+    CHECK_MEMORY(b->surfaces);
+    for (size_t s = 0; s < b->n_surfaces; ++s) {
+        b->surfaces[s] = surfaces[b->wall->surfaces[s]];
+        b->moving |= b->surfaces[s]->moving;
+        b->coupled |= b->surfaces[s]->coupled;
+    }
+    b->moving |= motion_moves(&b->wall->motion);
+    return b->type->create(b, model, view);
+}
+
+void boundary_destroy(struct boundary *boundary)
+{
+    if (!boundary)
+        return;
+    if (boundary->type)
+        boundary->type->destroy(boundary);
+    memory_free(boundary->surfaces);
+    memory_free(boundary->near);
+    memory_free(boundary->kernel_sum);
+    memory_free(boundary);
+}
+
+int boundary_prepare(struct boundary *boundary, const struct fluid_view *view)
+{
+    for (size_t s = 0; s < boundary->n_surfaces; ++s)
+        surface_at(boundary->surfaces[s], view->t);
+    return boundary->type->prepare(boundary, view);
+}
+
+int boundary_reserve_near(struct boundary *boundary, size_t n)
+{
+    size_t capacity = boundary->near_capacity;
+    CALL(memory_grow((void **)&boundary->near, &capacity, n, sizeof *boundary->near));
+    return memory_grow((void **)&boundary->kernel_sum, &boundary->near_capacity, n,
+                       sizeof *boundary->kernel_sum);
+}
+
+/** Every array of packed neighbours, so that none is forgotten when they grow or go. */
+static size_t neighbour_arrays(struct wall_neighbours *w, double **arrays[32])
+{
+    double ***a = arrays;
+    for (int k = 0; k < 3; ++k) {
+        *a++ = &w->dx[k];
+        *a++ = &w->u[k];
+        *a++ = &w->u_viscous[k];
+        *a++ = &w->a[k];
+        *a++ = &w->normal[k];
+    }
+    double **const scalars[] = {&w->r,
+                                &w->w,
+                                &w->dw,
+                                &w->volume,
+                                &w->rho,
+                                &w->p,
+                                &w->share_density,
+                                &w->share_pressure,
+                                &w->share_viscous};
+    for (size_t k = 0; k < sizeof scalars / sizeof *scalars; ++k)
+        *a++ = scalars[k];
+    return (size_t)(a - arrays);
+}
+
+int wall_neighbours_reserve(struct wall_neighbours *neighbours, size_t n)
+{
+    if (n <= neighbours->capacity)
+        return 0;
+    double **arrays[32];
+    size_t n_arrays = neighbour_arrays(neighbours, arrays), capacity = neighbours->capacity;
+    n += n / 2;
+    for (size_t k = 0; k < n_arrays; ++k) {
+        size_t old = capacity;
+        CALL(memory_grow((void **)arrays[k], &old, n, sizeof(double)));
+    }
+    return memory_grow((void **)&neighbours->source, &neighbours->capacity, n, sizeof *neighbours->source);
+}
+
+void wall_neighbours_reset(struct wall_neighbours *neighbours)
+{
+    double **arrays[32];
+    size_t n_arrays = neighbour_arrays(neighbours, arrays);
+    for (size_t k = 0; k < n_arrays; ++k)
+        memory_free(*arrays[k]);
+    memory_free(neighbours->source);
+    *neighbours = (struct wall_neighbours){0};
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sph/cell_grid.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <math.h>
+
+int cell_grid_create(struct cell_grid *grid, int dim, const double lower[3], const double upper[3],
+                     const bool periodic[3], double width, double fine)
+{
+    *grid = (struct cell_grid){.dim = dim};
+    double total = 1.0;
+    for (int k = 0; k < 3; ++k) {
+        bool used = k < dim;
+        double length = used ? upper[k] - lower[k] : 1.0;
+        double least = k == 0 ? fine : width;
+        grid->lower[k] = used ? lower[k] : -0.5;
+        grid->upper[k] = used ? upper[k] : 0.5;
+        grid->periodic[k] = used && periodic[k];
+        CHECK(!grid->periodic[k] || length > 2.0 * width, STATUS_DECK,
+              "the domain is periodic in %c over %g m: it must be longer than %g m, twice the reach of a "
+              "particle",
+              "xyz"[k], length, 2.0 * width);
+        double count = used ? fmax(1.0, floor(length / least * (1.0 + 1e-12))) : 1.0;
+        total *= count;
+        CHECK(total < 2.0e9, STATUS_DECK,
+              "the domain needs more than 2e9 search cells: it is too large for this particle spacing");
+        grid->cells[k] = (int)count;
+        grid->row_width[k] = length / count;
+        grid->inverse_width[k] = count / length;
+    }
+    return memory_grow((void **)&grid->start, &grid->start_capacity, (size_t)total + 1, sizeof *grid->start);
+}
+
+void cell_grid_reset(struct cell_grid *grid)
+{
+    memory_free(grid->start);
+    memory_free(grid->cell_of);
+    *grid = (struct cell_grid){0};
+}
+
+static int cell_clamped(const struct cell_grid *grid, int k, double x)
+{
+    double c = floor((x - grid->lower[k]) * grid->inverse_width[k]);
+    return c < 0.0 ? 0 : c >= grid->cells[k] ? grid->cells[k] - 1 : (int)c;
+}
+
+int cell_grid_sort(struct cell_grid *grid, const double *const x[3], size_t n, uint32_t *order)
+{
+    CHECK(n < UINT32_MAX, STATUS_MEMORY, "%zu particles are more than a search grid can number", n);
+    CALL(memory_grow((void **)&grid->cell_of, &grid->cell_of_capacity, n, sizeof *grid->cell_of));
+    size_t cells = (size_t)grid->cells[0] * (size_t)grid->cells[1] * (size_t)grid->cells[2];
+    for (size_t c = 0; c <= cells; ++c)
+        grid->start[c] = 0;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; ++i) {
+        size_t c = 0;
+        for (int k = grid->dim - 1; k >= 0; --k)
+            c = c * (size_t)grid->cells[k] + (size_t)cell_clamped(grid, k, x[k][i]);
+        grid->cell_of[i] = (uint32_t)c;
+    }
+    for (size_t i = 0; i < n; ++i)
+        ++grid->start[grid->cell_of[i] + 1];
+    for (size_t c = 0; c < cells; ++c)
+        grid->start[c + 1] += grid->start[c];
+    for (size_t i = 0; i < n; ++i)
+        order[grid->start[grid->cell_of[i]]++] = (uint32_t)i;
+    for (size_t c = cells; c > 0; --c)
+        grid->start[c] = grid->start[c - 1];
+    grid->start[0] = 0;
+    grid->moved = 0.0;
+    return 0;
+}
+
+static int wrap_count(int index, int n)
+{
+    return index >= 0 ? index / n : -((n - 1 - index) / n);
+}
+
+size_t cell_grid_ranges(const struct cell_grid *grid, const double x[3], double radius,
+                        struct cell_range ranges[CELL_GRID_RANGES])
+{
+    const double reach = radius + grid->moved;
+    int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    double length[3];
+    for (int k = 0; k < 3; ++k) {
+        length[k] = grid->upper[k] - grid->lower[k];
+        if (k >= grid->dim)
+            continue;
+        if (grid->periodic[k]) {
+            low[k] = (int)floor((x[k] - reach - grid->lower[k]) * grid->inverse_width[k]);
+            high[k] = (int)floor((x[k] + reach - grid->lower[k]) * grid->inverse_width[k]);
+        } else {
+            low[k] = cell_clamped(grid, k, x[k] - reach);
+            high[k] = cell_clamped(grid, k, x[k] + reach);
+        }
+    }
+    size_t n = 0;
+    for (int cz = low[2]; cz <= high[2]; ++cz) {
+        int wz = wrap_count(cz, grid->cells[2]);
+        for (int cy = low[1]; cy <= high[1]; ++cy) {
+            int wy = wrap_count(cy, grid->cells[1]);
+            size_t row = ((size_t)(cz - wz * grid->cells[2]) * (size_t)grid->cells[1] +
+                          (size_t)(cy - wy * grid->cells[1])) *
+                         (size_t)grid->cells[0];
+            for (int cx = low[0]; cx <= high[0] && n < CELL_GRID_RANGES;) {
+                int wx = wrap_count(cx, grid->cells[0]);
+                int last = (wx + 1) * grid->cells[0] - 1;
+                if (last > high[0])
+                    last = high[0];
+                uint32_t begin = grid->start[row + (size_t)(cx - wx * grid->cells[0])];
+                uint32_t end = grid->start[row + (size_t)(last - wx * grid->cells[0]) + 1];
+                if (end > begin)
+                    ranges[n++] =
+                        (struct cell_range){begin, end, {wx * length[0], wy * length[1], wz * length[2]}};
+                cx = last + 1;
+            }
+        }
+    }
+    return n;
+}
