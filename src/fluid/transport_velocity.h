@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef FLUID_TRANSPORT_VELOCITY_H
+#define FLUID_TRANSPORT_VELOCITY_H
+
+#include "sph/neighbour_list.h"
+
+enum { TRANSPORT_VELOCITY_RECORD = 12 };
+
+/** What the sweeps of the transport-velocity formulation read and write: arrays of the moving block (in
+ * double), n entries. */
+struct transport_velocity_arrays {
+    int dim;
+    const double *x[3], *u[3], *w[3]; /**< place, velocity u, transport minus momentum velocity */
+    size_t n;
+    const double *rho, *p, *m;
+    void *records;      /**< workspace: TRANSPORT_VELOCITY_RECORD numbers per particle, up to double */
+    double h, constant; /**< smoothing length; kernel normalisation */
+    double viscosity;   /**< dynamic, Pa s */
+    double background_pressure; /**< Pa */
+    double *kernel_sum;         /**< density sweep: sum_j W_ij, self included, 1/m^dim */
+    double *a[3],
+        *a_background[3]; /**< force sweep: accelerations by eq. 16 and by the background pressure */
+};
+
+/** The sweeps, compiled once per instruction set and precision of the pair arithmetic. */
+struct transport_velocity_sweeps {
+    void (*density)(const struct neighbour_list *list, const struct transport_velocity_arrays *arrays);
+    void (*force)(const struct neighbour_list *list, const struct transport_velocity_arrays *arrays);
+};
+
+#define TRANSPORT_VELOCITY_DECLARE(isa)                                                                      \
+    extern const struct transport_velocity_sweeps transport_velocity_sweeps_##isa##_mixed;                   \
+    extern const struct transport_velocity_sweeps transport_velocity_sweeps_##isa##_double;
+TRANSPORT_VELOCITY_DECLARE(baseline)
+TRANSPORT_VELOCITY_DECLARE(v3)
+TRANSPORT_VELOCITY_DECLARE(v4)
+#undef TRANSPORT_VELOCITY_DECLARE
+
+#endif

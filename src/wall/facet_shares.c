@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Closed formulas: 2 pi share = 2 pi [foot point inside] - sum over edges of the integral of f over the
+// in-plane angle, with f = a F(R) / (R F(a)) for S and V, f = G(R) / G(a) for G, R the distance from the
+// particle to the point of the edge. The part alpha a/R + beta of f, which carries the singularity at small a
+// and R, is integrated in closed form.
+#include "wall/facet_shares.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+enum { PROFILE_STEPS = 1024, TABLE_STEPS = 96, GAUSS_HALF = 6, GRADED_PANELS = 16 };
+
+#define PI 3.14159265358979323846
+/** Least distance, and least distance of the foot point from an edge line, in lattice spacings. */
+#define LEAST_DISTANCE 1e-9
+/** Part of the range up to which shares are evaluated. */
+#define LAST_PART 0.98
+
+static const double gauss_x[GAUSS_HALF] = {0.12523340851146891, 0.36783149899818018, 0.58731795428661748,
+                                           0.76990267419430469, 0.90411725637047491, 0.98156063424671924};
+static const double gauss_w[GAUSS_HALF] = {0.24914704581340277, 0.23349253653835481, 0.20316742672306592,
+                                           0.16007832854334622, 0.10693932599531843, 0.047175336386511828};
+
+static double block_volume(const struct facet_shares *shares)
+{
+    double volume = 1.0;
+    for (int k = 0; k < shares->kernel.dim; ++k)
+        volume *= shares->dx;
+    return volume;
+}
+
+/** The sums are analytic down to d > -dx/2, which the slopes of the table use. */
+void facet_shares_block(const struct facet_shares *shares, double d, double sums[SHARES])
+{
+    const int q = shares->layers, dim = shares->kernel.dim;
+    const double dx = shares->dx, volume = block_volume(shares);
+    sums[SHARE_DENSITY] = sums[SHARE_PRESSURE] = sums[SHARE_VISCOUS] = 0.0;
+    for (int m = 0; m < q; ++m) {
+        double y = d + (m + 0.5) * dx;
+        for (int s = 0; s < (dim > 1 ? q : 1); ++s)
+            for (int t = 0; t < (dim > 2 ? q : 1); ++t) {
+                double count = (s ? 2.0 : 1.0) * (t ? 2.0 : 1.0) * volume;
+                double r = sqrt(y * y + (double)(s * s + t * t) * dx * dx);
+                double slope = -count * kernel_dw(&shares->kernel, r) / r;
+                sums[SHARE_DENSITY] += count * kernel_w(&shares->kernel, r);
+                sums[SHARE_PRESSURE] += slope * y;
+                sums[SHARE_VISCOUS] += slope;
+            }
+    }
+}
+
+/** S, G, V and, unless NULL, their slopes from the cubic table. */
+static void profile_at(const struct facet_shares *shares, double d, double f[SHARES], double slope[SHARES])
+{
+    const double step = shares->range / PROFILE_STEPS, u = d / step;
+    if (u >= PROFILE_STEPS) {
+        for (int k = 0; k < SHARES; ++k) {
+            f[k] = 0.0;
+            if (slope)
+                slope[k] = 0.0;
+        }
+        return;
+    }
+    const int i = (int)u;
+    const double x = u - i, y = 1.0 - x;
+    const double *l = shares->profile[i], *r = shares->profile[i + 1];
+    const double b0 = y * y * (1.0 + 2.0 * x), b1 = x * x * (1.0 + 2.0 * y), b2 = x * y * y * step,
+                 b3 = -x * x * y * step;
+    for (int k = 0; k < SHARES; ++k)
+        f[k] = b0 * l[2 * k] + b1 * r[2 * k] + b2 * l[2 * k + 1] + b3 * r[2 * k + 1];
+    if (slope)
+        for (int k = 0; k < SHARES; ++k)
+            slope[k] = 6.0 * x * y / step * (r[2 * k] - l[2 * k]) + y * (y - 2.0 * x) * l[2 * k + 1] +
+                       x * (x - 2.0 * y) * r[2 * k + 1];
+}
+
+/** A distance a with the values there, and the coefficients of the closed part. */
+struct plane {
+    double a, f[SHARES], alpha[SHARES], beta[SHARES];
+    bool exact; /**< sum blocks instead of using the table */
+};
+
+static void plane_at(const struct facet_shares *shares, double a, bool exact, struct plane *plane)
+{
+    double slope[SHARES];
+    plane->a = a;
+    plane->exact = exact;
+    profile_at(shares, a, plane->f, slope);
+    if (exact)
+        facet_shares_block(shares, a, plane->f);
+    slope[SHARE_DENSITY] = -plane->f[SHARE_PRESSURE];
+    for (int k = 0; k < SHARES; ++k) {
+        plane->beta[k] = k == SHARE_PRESSURE ? 1.0 : a * slope[k] / plane->f[k];
+        plane->alpha[k] = 1.0 - plane->beta[k];
+    }
+}
+
+/** Add the Gauss sum of |h| (f - alpha a/R - beta) / (h^2 + s^2) over s0 .. s1. */
+static void add_panel(const struct facet_shares *shares, const struct plane *plane, double h, double s0,
+                      double s1, double integral[SHARES])
+{
+    const double centre = 0.5 * (s0 + s1), half = 0.5 * (s1 - s0), a = plane->a;
+    double sum[SHARES] = {0.0, 0.0, 0.0}, f[SHARES];
+    for (int g = -GAUSS_HALF; g < GAUSS_HALF; ++g) {
+        double x = g < 0 ? -gauss_x[-1 - g] : gauss_x[g], w = g < 0 ? gauss_w[-1 - g] : gauss_w[g];
+        double s = centre + half * x, t = h * h + s * s, R = sqrt(a * a + t);
+        if (t == 0.0)
+            continue;
+        if (plane->exact)
+            facet_shares_block(shares, R, f);
+        else
+            profile_at(shares, R, f, NULL);
+        double aR = a / R, weight = w / t;
+        sum[SHARE_DENSITY] +=
+            weight * (aR * (f[SHARE_DENSITY] / plane->f[SHARE_DENSITY] - plane->alpha[SHARE_DENSITY]) -
+                      plane->beta[SHARE_DENSITY]);
+        sum[SHARE_PRESSURE] += weight * (f[SHARE_PRESSURE] / plane->f[SHARE_PRESSURE] - 1.0);
+        sum[SHARE_VISCOUS] +=
+            weight * (aR * (f[SHARE_VISCOUS] / plane->f[SHARE_VISCOUS] - plane->alpha[SHARE_VISCOUS]) -
+                      plane->beta[SHARE_VISCOUS]);
+    }
+    for (int k = 0; k < SHARES; ++k)
+        integral[k] += h * half * sum[k];
+}
+
+/** Integral of f over the angle along one edge at distance @p h >= 0, from @p s0 to @p s1 (from the foot
+ * point of the edge).
+ * @p graded: many panels that shrink towards the foot point, instead of one. */
+static void edge_integral(const struct facet_shares *shares, const struct plane *plane, double h, double s0,
+                          double s1, bool graded, double integral[SHARES])
+{
+    const double a = plane->a, left = shares->range * shares->range - a * a - h * h;
+    for (int k = 0; k < SHARES; ++k)
+        integral[k] = 0.0;
+    if (left <= 0.0)
+        return;
+    const double end = sqrt(left);
+    s0 = fmax(s0, -end);
+    s1 = fmin(s1, end);
+    if (s1 <= s0)
+        return;
+    const double w1 = atan2(a * s1, h * sqrt(a * a + h * h + s1 * s1)),
+                 w0 = atan2(a * s0, h * sqrt(a * a + h * h + s0 * s0)),
+                 angle = atan2(h * (s1 - s0), h * h + s0 * s1);
+    if (!graded) {
+        add_panel(shares, plane, h, s0, s1, integral);
+    } else {
+        double low[SHARES] = {0.0, 0.0, 0.0};
+        for (int p = 0; p < GRADED_PANELS; ++p) {
+            double inner = p + 1 < GRADED_PANELS ? ldexp(1.0, -p - 1) : 0.0, outer = ldexp(1.0, -p);
+            add_panel(shares, plane, h, inner * s1, outer * s1, integral);
+            add_panel(shares, plane, h, inner * s0, outer * s0, low);
+        }
+        for (int k = 0; k < SHARES; ++k)
+            integral[k] -= low[k];
+    }
+    for (int k = 0; k < SHARES; ++k)
+        integral[k] += plane->alpha[k] * (w1 - w0) + plane->beta[k] * angle;
+}
+
+/** C(a, s) for s > 0: odd in s, 1 beyond the range. */
+static void cut(const struct facet_shares *shares, const struct plane *plane, double s, double c[SHARES])
+{
+    double integral[SHARES];
+    edge_integral(shares, plane, s, 0.0, shares->range, true, integral);
+    for (int k = 0; k < SHARES; ++k)
+        c[k] = 1.0 - 2.0 / PI * integral[k];
+}
+
+/** Coefficient of the part atan(s/a) that the table leaves out; bounded up to the range, where alpha is not.
+ */
+static double singular_part(const struct facet_shares *shares, const struct plane *plane, int k)
+{
+    double x = plane->a / shares->range;
+    return (1.0 - x * x) * (1.0 - x * x) * plane->alpha[k];
+}
+
+/** Rows: sqrt(a / last), columns: sqrt(s / sqrt(range^2 - a^2)): fine where C is steep. */
+static void fill_table(struct facet_shares *shares)
+{
+    for (int i = 0; i <= TABLE_STEPS; ++i) {
+        double x = (double)i / TABLE_STEPS;
+        struct plane plane;
+        plane_at(shares, fmax(x * x * shares->last, LEAST_DISTANCE * shares->dx), false, &plane);
+        double width = sqrt(shares->range * shares->range - plane.a * plane.a);
+        for (int j = 0; j <= TABLE_STEPS; ++j) {
+            double y = (double)j / TABLE_STEPS, s = y * y * width, c[SHARES] = {0.0, 0.0, 0.0};
+            if (j > 0)
+                cut(shares, &plane, s, c);
+            for (int k = 0; k < SHARES; ++k)
+                shares->table[i * (TABLE_STEPS + 1) + j][k] =
+                    c[k] - singular_part(shares, &plane, k) * 2.0 / PI * atan2(s, plane.a);
+        }
+    }
+}
+
+int facet_shares_create(struct facet_shares *shares, struct kernel kernel, double dx)
+{
+    *shares = (struct facet_shares){.kernel = kernel, .dx = dx};
+    shares->layers = (int)ceil(kernel.support / dx - 1e-6);
+    shares->range = kernel.support - 0.5 * dx;
+    shares->last = LAST_PART * shares->range;
+    shares->profile = memory_create(PROFILE_STEPS + 1, sizeof *shares->profile);
+    CHECK_MEMORY(shares->profile);
+    const double step = shares->range / PROFILE_STEPS;
+    double f[5][SHARES];
+    for (int k = 1; k < 5; ++k)
+        facet_shares_block(shares, (k - 3) * step, f[k]);
+    for (int i = 0; i <= PROFILE_STEPS; ++i) {
+        for (int k = 0; k < 4; ++k)
+            for (int l = 0; l < SHARES; ++l)
+                f[k][l] = f[k + 1][l];
+        facet_shares_block(shares, (i + 2) * step, f[4]);
+        for (int l = 0; l < SHARES; ++l) {
+            shares->profile[i][2 * l] = f[2][l];
+            shares->profile[i][2 * l + 1] =
+                (f[0][l] - 8.0 * f[1][l] + 8.0 * f[3][l] - f[4][l]) / (12.0 * step);
+        }
+    }
+    if (kernel.dim == 2) {
+        size_t n = (size_t)(TABLE_STEPS + 1) * (TABLE_STEPS + 1);
+        shares->table = memory_create(n, sizeof *shares->table);
+        CHECK_MEMORY(shares->table);
+        fill_table(shares);
+    }
+    return 0;
+}
+
+void facet_shares_reset(struct facet_shares *shares)
+{
+    memory_free(shares->profile);
+    memory_free(shares->table);
+    *shares = (struct facet_shares){0};
+}
+
+double facet_shares_viscous(const struct facet_shares *shares, double d)
+{
+    double f[SHARES];
+    profile_at(shares, d, f, NULL);
+    return f[SHARE_VISCOUS];
+}
+
+/** First node and weights of the cubic through four nodes around @p x in 0 .. TABLE_STEPS. */
+static int cubic_weights(double x, double weight[4])
+{
+    int i = (int)x - 1;
+    i = i < 0 ? 0 : i > TABLE_STEPS - 3 ? TABLE_STEPS - 3 : i;
+    double t = x - i, t1 = t - 1.0, t2 = t - 2.0, t3 = t - 3.0;
+    weight[0] = -t1 * t2 * t3 / 6.0;
+    weight[1] = t * t2 * t3 / 2.0;
+    weight[2] = -t * t1 * t3 / 2.0;
+    weight[3] = t * t1 * t2 / 6.0;
+    return i;
+}
+
+void facet_shares_segment(const struct facet_shares *shares, double d, double s0, double s1,
+                          double share[SHARES])
+{
+    const double a = fmax(fabs(d), LEAST_DISTANCE * shares->dx), ends[2] = {s0, s1};
+    for (int k = 0; k < SHARES; ++k)
+        share[k] = 0.0;
+    if (a >= shares->last)
+        return;
+    const double width = sqrt(shares->range * shares->range - a * a), half = d < 0.0 ? -0.5 : 0.5;
+    struct plane plane;
+    double wa[4], ws[4];
+    plane_at(shares, a, false, &plane);
+    int ia = cubic_weights(sqrt(a / shares->last) * TABLE_STEPS, wa);
+    for (int e = 0; e < 2; ++e) {
+        double s = fabs(ends[e]), sign = (e ? half : -half) * (ends[e] < 0.0 ? -1.0 : 1.0);
+        if (s >= width) {
+            for (int k = 0; k < SHARES; ++k)
+                share[k] += sign;
+            continue;
+        }
+        int is = cubic_weights(sqrt(s / width) * TABLE_STEPS, ws);
+        double c[SHARES] = {0.0, 0.0, 0.0}, angle = 2.0 / PI * atan2(s, a);
+        for (int i = 0; i < 4; ++i) {
+            const double(*row)[3] = (const double(*)[3])shares->table + (ia + i) * (TABLE_STEPS + 1) + is;
+            for (int j = 0; j < 4; ++j)
+                for (int k = 0; k < SHARES; ++k)
+                    c[k] += wa[i] * ws[j] * row[j][k];
+        }
+        for (int k = 0; k < SHARES; ++k)
+            share[k] += sign * (c[k] + singular_part(shares, &plane, k) * angle);
+    }
+}
+
+void facet_shares_segment_exact(const struct facet_shares *shares, double d, double s0, double s1,
+                                double share[SHARES])
+{
+    const double a = fmax(fabs(d), LEAST_DISTANCE * shares->dx);
+    const double sign0 = s0 < 0.0 ? -0.5 : 0.5, sign1 = s1 < 0.0 ? -0.5 : 0.5, sign = d < 0.0 ? -1.0 : 1.0;
+    double c0[SHARES] = {0.0, 0.0, 0.0}, c1[SHARES] = {0.0, 0.0, 0.0};
+    struct plane plane;
+    plane_at(shares, a, true, &plane);
+    if (s0 != 0.0)
+        cut(shares, &plane, fabs(s0), c0);
+    if (s1 != 0.0)
+        cut(shares, &plane, fabs(s1), c1);
+    for (int k = 0; k < SHARES; ++k)
+        share[k] = a < shares->last ? sign * (sign1 * c1[k] - sign0 * c0[k]) : 0.0;
+}
+
+static void polygon(const struct facet_shares *shares, double d, int n, const double (*corners)[2],
+                    bool exact, double share[SHARES])
+{
+    const double a = fmax(fabs(d), LEAST_DISTANCE * shares->dx), sign = d < 0.0 ? -1.0 : 1.0;
+    for (int k = 0; k < SHARES; ++k)
+        share[k] = 0.0;
+    if (a >= shares->last)
+        return;
+    struct plane plane;
+    double sum[SHARES] = {0.0, 0.0, 0.0}, turn = 0.0;
+    bool inside = true, on_line = false;
+    plane_at(shares, a, exact, &plane);
+    for (int e = 0; e < n; ++e) {
+        const double *A = corners[e], *B = corners[e + 1 < n ? e + 1 : 0];
+        double t[2] = {B[0] - A[0], B[1] - A[1]}, length = sqrt(t[0] * t[0] + t[1] * t[1]);
+        if (length <= 0.0)
+            continue;
+        t[0] /= length;
+        t[1] /= length;
+        double s0 = A[0] * t[0] + A[1] * t[1], s1 = B[0] * t[0] + B[1] * t[1];
+        const double *near = fabs(s0) < fabs(s1) ? A : B; // the nearer end has the smaller rounding error
+        double h = near[0] * t[1] - near[1] * t[0], side = h < 0.0 ? -1.0 : 1.0, integral[SHARES];
+        inside = inside && h > 0.0;
+        if (fabs(h) < LEAST_DISTANCE * shares->dx) { // the angle under such an edge cancels in the difference
+            on_line = true;
+            continue;
+        }
+        h = fabs(h);
+        turn += side * atan2(h * (s1 - s0), h * h + s0 * s1);
+        edge_integral(shares, &plane, h, s0, s1, exact, integral);
+        for (int k = 0; k < SHARES; ++k)
+            sum[k] += side * integral[k];
+    }
+    double whole = on_line ? turn : inside ? 2.0 * PI : 0.0;
+    for (int k = 0; k < SHARES; ++k)
+        share[k] = sign * (whole - sum[k]) / (2.0 * PI);
+}
+
+void facet_shares_polygon(const struct facet_shares *shares, double d, int n, const double (*corners)[2],
+                          double share[SHARES])
+{
+    polygon(shares, d, n, corners, false, share);
+}
+
+void facet_shares_polygon_exact(const struct facet_shares *shares, double d, int n,
+                                const double (*corners)[2], double share[SHARES])
+{
+    polygon(shares, d, n, corners, true, share);
+}

@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/* Walls of boundary particles fixed to the wall: Adami, Hu and Adams (2012), as Fuchs et al. (2021),
+ * section 3.1.6. Pressure and velocity are extrapolated from the fluid by a local force balance. Wall
+ * particles sit on the fluid's lattice behind the surfaces (so that flat walls are in line with the fluid),
+ * or where the deck's region puts them, and move with the prescribed motion of their surface. Walls that a
+ * solid moves are refused: material points of a deforming wall leave holes (section 4.1.4). */
+#include "base/error.h"
+#include "base/memory.h"
+#include "sph/boundary.h"
+#include "wall/wall_list.h"
+
+#include <math.h>
+#include <string.h>
+
+/** One wall particle within reach of a near particle. */
+struct fixed_pair {
+    uint32_t wall;
+    uint8_t image; /**< periodic image: index into fixed_particles.shift */
+};
+
+struct fixed_particles {
+    size_t n;
+    double (*X)[3];             /**< reference places */
+    int32_t *surface;           /**< per particle: which of boundary->surfaces, -1: the wall's own motion */
+    int32_t *load_point;        /**< per particle: point of the surface that takes its load, -1: none */
+    double *x[3], *v[3], *a[3]; /**< of the wall */
+    double *p, *rho, *u[3];     /**< extrapolated; u for the viscous term */
+    double *listed[3];          /**< places when the lists were made */
+    double *force[3];           /**< reaction of this step */
+    struct cell_grid grid;
+    uint32_t *order;
+    double shift[27][3];
+    size_t n_pairs, pair_capacity, start_capacity;
+    struct fixed_pair *pairs; /**< grouped by near particle */
+    uint32_t *start;          /**< n_near + 1 */
+    size_t back_capacity;
+    uint32_t *back_start;  /**< n + 1: pairs grouped by wall particle */
+    uint32_t *back;        /**< pair numbers */
+    uint32_t *back_near;   /**< near number of each pair in back */
+    double *pair_force[3]; /**< per pair */
+    size_t force_capacity[3], back_near_capacity;
+};
+
+static int fixed_particles_check(const struct model *model, const struct model_wall *wall)
+{
+    for (size_t s = 0; s < wall->n_surfaces; ++s) {
+        const struct model_surface *surface = &model->surfaces[wall->surfaces[s]];
+        for (size_t k = 0; k < surface->n_parts; ++k)
+            CHECK(surface->kind != SURFACE_FACETS || surface->parts[k].mesh < 0, STATUS_DECK,
+                  "%s:%d:%d: error: <wall name=\"%s\">: surface \"%s\" is moved by mesh \"%s\"; boundary "
+                  "particles "
+                  "stay in line only on walls that do not deform: use treatment=\"sliding-particles\"",
+                  model->path, wall->where.line, wall->where.column, wall->name, surface->name,
+                  model->meshes[surface->parts[k].mesh].name);
+    }
+    return 0;
+}
+
+/** Signed distance to a surface in the reference configuration, positive in the fluid. */
+static double surface_distance(const struct model_surface *surface, int dim, const double x[3])
+{
+    double d[3], along = 0.0, r2 = 0.0;
+    if (surface->kind == SURFACE_FACETS)
+        return facets_distance(&surface->built, x);
+    for (int k = 0; k < 3; ++k) {
+        d[k] = k < dim ? x[k] - surface->centre[k] : 0.0;
+        along += d[k] * surface->axis[k];
+        r2 += d[k] * d[k];
+    }
+    if (surface->kind == SURFACE_PLANE)
+        return along;
+    double r = sqrt(fmax(0.0, surface->kind == SURFACE_CYLINDER && dim == 3 ? r2 - along * along : r2));
+    return surface->fluid_inside ? surface->radius - r : r - surface->radius;
+}
+
+/** The point of a surface nearest to @p X takes the load of the wall particle there. */
+static int32_t nearest_point(const struct surface *surface, const double X[3])
+{
+    int32_t best = 0;
+    double least = INFINITY;
+    for (size_t k = 0; k < surface->n_points; ++k) {
+        double d2 = 0.0;
+        for (int d = 0; d < 3; ++d)
+            d2 += (surface->X[k][d] - X[d]) * (surface->X[k][d] - X[d]);
+        if (d2 < least) {
+            least = d2;
+            best = (int32_t)k;
+        }
+    }
+    return best;
+}
+
+/** Lattice points of the fluid that lie behind the surfaces, up to the support deep. */
+static int places_behind(const struct boundary *boundary, const struct model *model,
+                         const struct fluid_view *view, double (**places)[3], int32_t **surfaces, size_t *n)
+{
+    const struct model_region *region = &model->fluid.regions[0];
+    const double dx = view->spacing;
+    double lower[3] = {0}, upper[3];
+    shape_bounds(&region->shape, model->dim, lower, upper);
+    const double *origin = region->has_origin ? region->origin
+                           : region->n_points ? model->domain.lower
+                                              : lower;
+    struct shape domain = {.kind = SHAPE_BOX};
+    memcpy(domain.a, model->domain.lower, sizeof domain.a);
+    memcpy(domain.b, model->domain.upper, sizeof domain.b);
+    double(*all)[3];
+    size_t n_all, kept = 0;
+    CALL(geometry_fill(&domain, model->dim, dx, origin, 0.0, &all, &n_all));
+    int32_t *which = memory_create(n_all, sizeof *which);
+    if (!which) {
+        memory_free(all);
+        return STATUS_MEMORY;
+    }
+    for (size_t i = 0; i < n_all; ++i) {
+        double deepest = INFINITY;
+        for (size_t s = 0; s < boundary->n_surfaces; ++s) {
+            double d = surface_distance(boundary->surfaces[s]->definition, model->dim, all[i]);
+            if (d < deepest) {
+                deepest = d;
+                which[kept] = (int32_t)s;
+            }
+        }
+        if (deepest > 0.02 * dx || deepest < -view->kernel.support)
+            continue;
+        memmove(all[kept++], all[i], sizeof *all);
+    }
+    *places = all;
+    *surfaces = which;
+    *n = kept;
+    return 0;
+}
+
+static int arrays_create(struct fixed_particles *f)
+{
+    double **const arrays[] = {&f->listed[0], &f->listed[1], &f->listed[2], &f->x[0],     &f->x[1],
+                               &f->x[2],      &f->v[0],      &f->v[1],      &f->v[2],     &f->a[0],
+                               &f->a[1],      &f->a[2],      &f->u[0],      &f->u[1],     &f->u[2],
+                               &f->p,         &f->rho,       &f->force[0],  &f->force[1], &f->force[2]};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k) {
+        *arrays[k] = memory_create(f->n, sizeof(double));
+        CHECK_MEMORY(*arrays[k]);
+    }
+    f->load_point = memory_create(f->n, sizeof *f->load_point);
+    f->order = memory_create(f->n, sizeof *f->order);
+    f->back_start = memory_create(f->n + 1, sizeof *f->back_start);
+    return f->load_point && f->order && f->back_start ? 0 : STATUS_MEMORY;
+}
+
+static int places_create(struct boundary *boundary, const struct model *model, const struct fluid_view *view,
+                         struct fixed_particles *f)
+{
+    if (!boundary->wall->has_region)
+        return places_behind(boundary, model, view, &f->X, &f->surface, &f->n);
+    const struct model_region *region = &boundary->wall->region;
+    double lower[3] = {0}, upper[3];
+    if (region->n_points) {
+        f->n = region->n_points;
+        f->X = memory_create(f->n, sizeof *f->X);
+        CHECK_MEMORY(f->X);
+        memcpy(f->X, region->points, f->n * sizeof *f->X);
+    } else {
+        shape_bounds(&region->shape, model->dim, lower, upper);
+        CALL(geometry_fill(&region->shape, model->dim, view->spacing,
+                           region->has_origin ? region->origin : lower, 0.0, &f->X, &f->n));
+    }
+    f->surface = memory_create(f->n, sizeof *f->surface);
+    CHECK_MEMORY(f->surface);
+    for (size_t k = 0; k < f->n; ++k)
+        f->surface[k] = -1;
+    return 0;
+}
+
+/** Place, velocity and acceleration of every wall particle at time @p t. */
+static void particles_move(struct boundary *boundary, double t)
+{
+    struct fixed_particles *f = boundary->data;
+    for (size_t k = 0; k < f->n; ++k) {
+        double x[3], v[3], a[3];
+        const struct motion *motion = f->surface[k] < 0
+                                          ? &boundary->wall->motion
+                                          : &boundary->surfaces[f->surface[k]]->definition->motion;
+        motion_at(motion, f->X[k], t, x, v, a);
+        for (int d = 0; d < 3; ++d) {
+            f->x[d][k] = x[d];
+            f->v[d][k] = v[d];
+            f->a[d][k] = a[d];
+        }
+    }
+}
+
+static void fields_register(struct boundary *boundary, struct fixed_particles *f)
+{
+    struct field *field = boundary->wall_field_list;
+    *field++ = (struct field){"Density", "kg/m^3", FIELD_DOUBLE, 1, FIELD_OUTPUT, {f->rho}, NULL};
+    *field++ =
+        (struct field){"Velocity", "m/s", FIELD_DOUBLE, 3, FIELD_OUTPUT, {f->v[0], f->v[1], f->v[2]}, NULL};
+    *field++ = (struct field){"Pressure", "Pa", FIELD_DOUBLE, 1, FIELD_OUTPUT, {f->p}, NULL};
+    *field++ = (struct field){
+        "ReactionForce", "N", FIELD_DOUBLE, 3, FIELD_OUTPUT, {f->force[0], f->force[1], f->force[2]}, NULL};
+    boundary->wall_fields =
+        (struct field_group){boundary->wall->name, boundary, &f->n, boundary->wall_field_list, 4};
+    for (int d = 0; d < 3; ++d)
+        boundary->wall_x[d] = f->x[d];
+}
+
+static int fixed_particles_create(struct boundary *boundary, const struct model *model,
+                                  const struct fluid_view *view)
+{
+    struct fixed_particles *f = memory_create(1, sizeof *f);
+    CHECK_MEMORY(f);
+    boundary->data = f;
+    CALL(places_create(boundary, model, view, f));
+    const struct model_wall *wall = boundary->wall;
+    CHECK(f->n, STATUS_DECK,
+          "%s:%d:%d: error: <wall name=\"%s\">: no wall particle lies inside the domain; it must reach "
+          "%g m behind the wall",
+          model->path, wall->where.line, wall->where.column, wall->name, view->kernel.support);
+    CALL(arrays_create(f));
+    for (size_t k = 0; k < f->n; ++k)
+        f->load_point[k] = f->surface[k] < 0 ? -1 : nearest_point(boundary->surfaces[f->surface[k]], f->X[k]);
+    for (int image = 0; image < 27; ++image)
+        for (int d = 0, rest = image; d < 3; ++d, rest /= 3)
+            f->shift[image][d] = d < model->dim && model->domain.periodic[d]
+                                     ? (rest % 3 - 1) * (model->domain.upper[d] - model->domain.lower[d])
+                                     : 0.0;
+    particles_move(boundary, 0.0);
+    fields_register(boundary, f);
+    double reach = view->kernel.support + view->skin;
+    return cell_grid_create(&f->grid, model->dim, model->domain.lower, model->domain.upper,
+                            model->domain.periodic, reach, view->spacing);
+}
+
+static void fixed_particles_destroy(struct boundary *boundary)
+{
+    struct fixed_particles *f = boundary->data;
+    if (!f)
+        return;
+    for (int d = 0; d < 3; ++d) {
+        double *const arrays[] = {f->x[d],      f->v[d],     f->a[d],         f->u[d],
+                                  f->listed[d], f->force[d], f->pair_force[d]};
+        for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
+            memory_free(arrays[k]);
+    }
+    void *const others[] = {f->X,     f->surface, f->load_point, f->order, f->p,        f->rho,
+                            f->pairs, f->start,   f->back_start, f->back,  f->back_near};
+    for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
+        memory_free(others[k]);
+    cell_grid_reset(&f->grid);
+    memory_free(f);
+}
+
+static uint8_t image_of(const struct cell_range *range)
+{
+    int image = 0;
+    for (int d = 2; d >= 0; --d)
+        image = 3 * image + (range->shift[d] > 0.0 ? 2 : range->shift[d] < 0.0 ? 0 : 1);
+    return (uint8_t)image;
+}
+
+/** Pairs grouped by wall particle, for the extrapolation. */
+static int pairs_turn(struct boundary *boundary)
+{
+    struct fixed_particles *f = boundary->data;
+    CALL(memory_grow((void **)&f->back, &f->back_capacity, f->n_pairs, sizeof *f->back));
+    CALL(memory_grow((void **)&f->back_near, &f->back_near_capacity, f->n_pairs, sizeof *f->back_near));
+    memset(f->back_start, 0, (f->n + 1) * sizeof *f->back_start);
+    for (size_t k = 0; k < f->n_pairs; ++k)
+        ++f->back_start[f->pairs[k].wall + 1];
+    for (size_t k = 0; k < f->n; ++k)
+        f->back_start[k + 1] += f->back_start[k];
+    for (size_t near = 0; near < boundary->n_near; ++near)
+        for (uint32_t k = f->start[near]; k < f->start[near + 1]; ++k) {
+            uint32_t place = f->back_start[f->pairs[k].wall]++;
+            f->back[place] = k;
+            f->back_near[place] = (uint32_t)near;
+        }
+    for (size_t k = f->n; k > 0; --k)
+        f->back_start[k] = f->back_start[k - 1];
+    f->back_start[0] = 0;
+    return 0;
+}
+
+static int fixed_particles_list(struct boundary *boundary, const struct fluid_view *view)
+{
+    struct fixed_particles *f = boundary->data;
+    const struct particles *block = view->particles;
+    const double reach = view->kernel.support + view->skin;
+    if (boundary->moving)
+        particles_move(boundary, view->t);
+    for (int d = 0; d < 3; ++d)
+        memcpy(f->listed[d], f->x[d], f->n * sizeof(double));
+    const double *x[3] = {f->x[0], f->x[1], f->x[2]};
+    CALL(cell_grid_sort(&f->grid, x, f->n, f->order));
+    boundary->n_near = f->n_pairs = 0;
+    for (size_t i = 0; i < block->n; ++i) {
+        struct cell_range ranges[CELL_GRID_RANGES];
+        double place[3] = {block->x[0][i], block->x[1][i], block->x[2][i]};
+        size_t n = cell_grid_ranges(&f->grid, place, reach, ranges), first = f->n_pairs;
+        for (size_t r = 0; r < n; ++r)
+            for (uint32_t c = ranges[r].begin; c < ranges[r].end; ++c) {
+                uint32_t k = f->order[c];
+                double r2 = 0.0;
+                for (int d = 0; d < 3; ++d)
+                    r2 += pow(place[d] - f->x[d][k] - ranges[r].shift[d], 2.0);
+                if (r2 >= reach * reach)
+                    continue;
+                CALL(memory_grow((void **)&f->pairs, &f->pair_capacity, f->n_pairs + 1, sizeof *f->pairs));
+                f->pairs[f->n_pairs++] = (struct fixed_pair){k, image_of(&ranges[r])};
+            }
+        if (f->n_pairs == first)
+            continue;
+        CALL(boundary_reserve_near(boundary, boundary->n_near + 1));
+        CALL(memory_grow((void **)&f->start, &f->start_capacity, boundary->n_near + 2, sizeof *f->start));
+        f->start[boundary->n_near] = (uint32_t)first;
+        f->start[boundary->n_near + 1] = (uint32_t)f->n_pairs;
+        boundary->near[boundary->n_near++] = (uint32_t)i;
+    }
+    for (int d = 0; d < 3; ++d)
+        CALL(memory_grow((void **)&f->pair_force[d], &f->force_capacity[d], f->n_pairs, sizeof(double)));
+    return pairs_turn(boundary);
+}
+
+/** Vector from the wall particle of a pair to fluid particle @p i; returns its squared length. */
+static inline double pair_vector(const struct fixed_particles *f, const struct particles *block, size_t i,
+                                 const struct fixed_pair *pair, double d[3])
+{
+    const double *shift = f->shift[pair->image];
+    double r2 = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        d[k] = block->x[k][i] - f->x[k][pair->wall] - shift[k];
+        r2 += d[k] * d[k];
+    }
+    return r2;
+}
+
+static int fixed_particles_prepare(struct boundary *boundary, const struct fluid_view *view)
+{
+    const struct fixed_particles *f = boundary->data;
+    if (boundary->moving) {
+        double moved2 = 0.0;
+        particles_move(boundary, view->t);
+        for (size_t k = 0; k < f->n; ++k) {
+            double d2 = 0.0;
+            for (int d = 0; d < 3; ++d)
+                d2 += (f->x[d][k] - f->listed[d][k]) * (f->x[d][k] - f->listed[d][k]);
+            moved2 = fmax(moved2, d2);
+        }
+        boundary->drift = sqrt(moved2);
+    }
+#pragma omp parallel for schedule(static)
+    for (size_t near = 0; near < boundary->n_near; ++near) {
+        double sum = 0.0, d[3];
+        for (uint32_t k = f->start[near]; k < f->start[near + 1]; ++k)
+            sum += kernel_w(&view->kernel,
+                            sqrt(pair_vector(f, view->particles, boundary->near[near], &f->pairs[k], d)));
+        boundary->kernel_sum[near] = sum;
+    }
+    return 0;
+}
+
+/** Adami's extrapolation, with the wall's acceleration in the force balance. */
+static int fixed_particles_close(struct boundary *boundary, const struct fluid_view *view)
+{
+    struct fixed_particles *f = boundary->data;
+    const struct particles *block = view->particles;
+    const double c2 = view->sound_speed * view->sound_speed;
+#pragma omp parallel for schedule(static)
+    for (size_t wall = 0; wall < f->n; ++wall) {
+        double weight = 0.0, p = 0.0, u[3] = {0}, moment[3] = {0};
+        for (uint32_t c = f->back_start[wall]; c < f->back_start[wall + 1]; ++c) {
+            size_t i = boundary->near[f->back_near[c]];
+            double d[3],
+                w = kernel_w(&view->kernel, sqrt(pair_vector(f, block, i, &f->pairs[f->back[c]], d)));
+            weight += w;
+            p += block->p[i] * w;
+            for (int k = 0; k < 3; ++k) {
+                u[k] += block->u[k][i] * w;
+                moment[k] -= block->rho[i] * d[k] * w; /* rho (r_wall - r_fluid) W */
+            }
+        }
+        double inverse = weight > 0.0 ? 1.0 / weight : 0.0;
+        for (int k = 0; k < 3; ++k) {
+            p += (view->body_force[k] - f->a[k][wall]) * moment[k];
+            f->u[k][wall] = weight > 0.0 ? 2.0 * f->v[k][wall] - u[k] * inverse : f->v[k][wall];
+        }
+        f->p[wall] = p * inverse;
+        f->rho[wall] = f->p[wall] / c2 + view->density;
+    }
+    return 0;
+}
+
+static int fixed_particles_gather(const struct boundary *boundary, const struct fluid_view *view, size_t near,
+                                  struct wall_neighbours *neighbours)
+{
+    const struct fixed_particles *f = boundary->data;
+    const uint32_t first = f->start[near], last = f->start[near + 1];
+    const double support2 = view->kernel.support * view->kernel.support;
+    CALL(wall_neighbours_reserve(neighbours, last - first));
+    size_t n = 0;
+    for (uint32_t k = first; k < last; ++k) {
+        double d[3], r2 = pair_vector(f, view->particles, boundary->near[near], &f->pairs[k], d),
+                     r = sqrt(r2);
+        uint32_t wall = f->pairs[k].wall;
+        f->pair_force[0][k] = f->pair_force[1][k] = f->pair_force[2][k] = 0.0;
+        if (r2 >= support2)
+            continue;
+        for (int c = 0; c < 3; ++c) {
+            neighbours->dx[c][n] = d[c];
+            neighbours->u[c][n] = f->v[c][wall];
+            neighbours->u_viscous[c][n] = f->u[c][wall];
+            neighbours->a[c][n] = f->a[c][wall];
+            neighbours->normal[c][n] = d[c] / r;
+        }
+        neighbours->r[n] = r;
+        neighbours->w[n] = kernel_w(&view->kernel, r);
+        neighbours->dw[n] = kernel_dw(&view->kernel, r);
+        neighbours->rho[n] = f->rho[wall];
+        neighbours->p[n] = f->p[wall];
+        neighbours->volume[n] = view->mass / f->rho[wall];
+        neighbours->share_density[n] = neighbours->share_pressure[n] = neighbours->share_viscous[n] = 1.0;
+        neighbours->source[n++] = (int32_t)(k - first);
+    }
+    neighbours->n = n;
+    return 0;
+}
+
+static void fixed_particles_react(struct boundary *boundary, size_t near,
+                                  const struct wall_neighbours *neighbours, double *const force[3])
+{
+    struct fixed_particles *f = boundary->data;
+    for (size_t k = 0; k < neighbours->n; ++k)
+        for (int d = 0; d < 3; ++d)
+            f->pair_force[d][f->start[near] + (uint32_t)neighbours->source[k]] = -force[d][k];
+}
+
+static void fixed_particles_load(struct boundary *boundary, const struct fluid_view *view)
+{
+    struct fixed_particles *f = boundary->data;
+    (void)view;
+    for (size_t wall = 0; wall < f->n; ++wall) {
+        double total[3] = {0};
+        for (uint32_t c = f->back_start[wall]; c < f->back_start[wall + 1]; ++c)
+            for (int d = 0; d < 3; ++d)
+                total[d] += f->pair_force[d][f->back[c]];
+        for (int d = 0; d < 3; ++d)
+            f->force[d][wall] = total[d];
+        if (f->load_point[wall] < 0)
+            continue;
+        struct surface *surface = boundary->surfaces[f->surface[wall]];
+        const double *centre = surface->now.x[0],
+                     arm[3] = {f->x[0][wall] - centre[0], f->x[1][wall] - centre[1],
+                               f->x[2][wall] - centre[2]};
+        for (int d = 0; d < 3; ++d) {
+            surface->load[f->load_point[wall]][d] += total[d];
+            if (!surface->n_facets)
+                surface->moment[d] +=
+                    arm[(d + 1) % 3] * total[(d + 2) % 3] - arm[(d + 2) % 3] * total[(d + 1) % 3];
+        }
+    }
+}
+
+const struct boundary_type boundary_fixed_particles = {
+    .name = "fixed-particles",
+    .check = fixed_particles_check,
+    .create = fixed_particles_create,
+    .destroy = fixed_particles_destroy,
+    .list = fixed_particles_list,
+    .prepare = fixed_particles_prepare,
+    .close = fixed_particles_close,
+    .gather = fixed_particles_gather,
+    .react = fixed_particles_react,
+    .load = fixed_particles_load,
+};

@@ -1,0 +1,9 @@
+# Sources of src/wall/.
+libskerry_la_SOURCES += \
+	src/wall/facet_shares.c src/wall/facet_shares.h \
+	src/wall/fixed_particles.c \
+	src/wall/projection.c src/wall/projection.h \
+	src/wall/sliding_contacts.c \
+	src/wall/sliding_forces.c \
+	src/wall/sliding_particles.c src/wall/sliding_particles.h \
+	src/wall/wall_list.h

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef WALL_PROJECTION_H
+#define WALL_PROJECTION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** Where the closest point of a facet lies (paper 000 section 3.3.2). */
+enum projection_feature { PROJECTION_NODE, PROJECTION_EDGE, PROJECTION_INTERIOR };
+
+/** A plane piece of a facet: a segment (2-D), a triangle, a quad whose corners lie in one plane, or a quarter
+ * of a warped quad: the triangle of corners k, k + 1 and the centre. */
+struct piece {
+    int32_t facet;
+    int n;             /**< corners: 2, 3, 4; 0: the facet has shrunk to nothing */
+    int quarter;       /**< k of a quarter, or -1: the whole facet */
+    double origin[3];  /**< first corner, in the plane */
+    double normal[3];  /**< into the fluid */
+    double axis[2][3]; /**< in the plane; 2-D: [0] = tangent */
+    double corner[4]
+                 [2]; /**< in these axes, counter-clockwise seen from the fluid; 2-D: (0, 0), (length, 0) */
+};
+
+/** The closest point of a piece to a place. */
+struct projection {
+    double d;          /**< signed distance from the plane, positive on the fluid side */
+    double foot[2];    /**< foot point on the plane, in the piece's axes */
+    double closest[2]; /**< closest point of the piece, in the same */
+    double distance;   /**< from the place to the closest point */
+    enum projection_feature feature;
+    double angle; /**< of the piece about the closest point, rad: weight of its normal there */
+};
+
+/** Cut the facet with corner places @p x (rows) into 1 or 4 pieces; a quad is cut where its corners lie
+ * further than
+ * @p flat from its mean plane. Returns their number. */
+int piece_cut(struct piece pieces[4], int32_t facet, int dim, int n, const double (*x)[3], double flat);
+
+/** Signed distance of @p x from the plane of a piece. */
+static inline double piece_plane_distance(const struct piece *piece, const double x[3])
+{
+    return (x[0] - piece->origin[0]) * piece->normal[0] + (x[1] - piece->origin[1]) * piece->normal[1] +
+           (x[2] - piece->origin[2]) * piece->normal[2];
+}
+
+/** Closest point of @p piece to @p x; points closer than @p snap to a corner or edge are on it. */
+void projection_find(struct projection *projection, const struct piece *piece, const double x[3],
+                     double snap);
+
+/** Place of the in-plane coordinates @p local. */
+void piece_place(const struct piece *piece, const double local[2], double x[3]);
+
+/** Values of the shape functions of the whole facet (@p n nodes) at the in-plane coordinates @p local of a
+ * piece; they add up to 1. */
+void piece_weights(const struct piece *piece, int n, const double local[2], double weights[4]);
+
+#endif

@@ -1,0 +1,494 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contact points of near particles: where blocks of virtual particles stand, and with which weights (paper
+// 000 section 3.3.2 for corners="paper"; facet shares otherwise).
+#include "wall/sliding_particles.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <omp.h>
+#include <string.h>
+
+/** Facets are coplanar if the cosine of their angle and their distances differ by less than this (of dx). */
+#define COPLANAR_COSINE 1e-12
+#define COPLANAR_DISTANCE 1e-6
+/** A penetrated particle sees the wall from this far outside, and is put back so far outside (of dx). */
+#define OUTSIDE_EVALUATE 1e-3
+#define OUTSIDE_PUT_BACK 0.1
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static double distance(const double a[3], const double b[3])
+{
+    double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return sqrt(dot(r, r));
+}
+
+/** Exact closest point of an analytic surface to @p x (already in the surface's own image). */
+static void shape_hit(const struct surface *surface, const struct sliding_shape *shape, const double x[3],
+                      struct hit *hit)
+{
+    const struct model_surface *definition = surface->definition;
+    double r[3] = {x[0] - shape->centre[0], x[1] - shape->centre[1], x[2] - shape->centre[2]};
+    double along = dot(r, shape->axis), side = definition->fluid_inside ? -1.0 : 1.0;
+    hit->at.feature = PROJECTION_INTERIOR;
+    hit->at.angle = 1.0;
+    if (definition->kind == SURFACE_PLANE) {
+        hit->at.d = along;
+        for (int k = 0; k < 3; ++k) {
+            hit->normal[k] = shape->axis[k];
+            hit->place[k] = x[k] - along * shape->axis[k];
+        }
+    } else {
+        for (int k = 0; k < 3 && definition->kind == SURFACE_CYLINDER; ++k)
+            r[k] -= along * shape->axis[k];
+        double length = sqrt(dot(r, r));
+        hit->at.d = side * (length - definition->radius);
+        for (int k = 0; k < 3; ++k) {
+            double e = length > 0.0 ? r[k] / length : k == 0;
+            hit->normal[k] = side * e;
+            hit->place[k] = x[k] + (definition->radius - length) * e;
+        }
+    }
+    hit->at.distance = fabs(hit->at.d);
+    for (int k = 0; k < 3; ++k)
+        hit->place[k] += hit->shift[k];
+}
+
+size_t sliding_hits(const struct boundary *boundary, size_t near, const double x[3], struct hit *hits)
+{
+    const struct sliding *s = boundary->data;
+    size_t n = 0;
+    for (size_t c = s->candidate_start[near]; c < s->candidate_start[near + 1]; ++c) {
+        const struct candidate *candidate = &s->candidates[c];
+        struct hit hit = {.facet = -1};
+        double at[3];
+        for (int k = 0; k < 3; ++k) {
+            hit.shift[k] = candidate->shift[k] * s->period[k];
+            at[k] = x[k] - hit.shift[k];
+        }
+        if ((size_t)candidate->item >= s->n_facets) {
+            hit.surface = candidate->item - (int32_t)s->n_facets;
+            shape_hit(boundary->surfaces[hit.surface], &s->shapes[hit.surface], at, &hit);
+            if (hit.at.distance < s->reach)
+                hits[n++] = hit;
+            continue;
+        }
+        const struct sliding_facet *facet = &s->facets[candidate->item];
+        hit.surface = facet->surface;
+        hit.facet = facet->facet;
+        for (int p = 0; p < facet->n_pieces; ++p) {
+            hit.piece = &s->pieces[facet->pieces + p];
+            if (hit.piece->n == 0 || fabs(piece_plane_distance(hit.piece, at)) >= s->reach)
+                continue;
+            projection_find(&hit.at, hit.piece, at, s->snap);
+            if (hit.at.distance < s->reach)
+                hits[n++] = hit;
+        }
+    }
+    return n;
+}
+
+void sliding_hit_place(struct hit *hit)
+{
+    if (!hit->piece)
+        return;
+    piece_place(hit->piece, hit->at.closest, hit->place);
+    for (int k = 0; k < 3; ++k) {
+        hit->place[k] += hit->shift[k];
+        hit->normal[k] = hit->piece->normal[k];
+    }
+}
+
+bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t n, const double x[3],
+                        double c[3], double normal[3], size_t *nearest)
+{
+    if (n == 0)
+        return false;
+    size_t best = 0;
+    for (size_t h = 1; h < n; ++h)
+        if (hits[h].at.distance < hits[best].at.distance)
+            best = h;
+    *nearest = best;
+    sliding_hit_place(&hits[best]);
+    memcpy(c, hits[best].place, 3 * sizeof *c);
+    for (int k = 0; k < 3; ++k)
+        normal[k] = hits[best].at.angle * hits[best].normal[k];
+    for (size_t h = 0; h < n && hits[best].at.feature != PROJECTION_INTERIOR; ++h) {
+        if (h == best || hits[h].at.distance > hits[best].at.distance + sliding->snap)
+            continue;
+        sliding_hit_place(&hits[h]);
+        if (distance(hits[h].place, c) > 2.0 * sliding->snap)
+            continue;
+        for (int k = 0; k < 3; ++k)
+            normal[k] += hits[h].at.angle * hits[h].normal[k];
+    }
+    double length = sqrt(dot(normal, normal)), side = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        normal[k] = length > 0.0 ? normal[k] / length : hits[best].normal[k];
+        side += (x[k] - c[k]) * normal[k];
+    }
+    return side < 0.0;
+}
+
+void sliding_contact_finish(const struct boundary *boundary, const struct hit *hit, struct contact *contact)
+{
+    const struct sliding *s = boundary->data;
+    const struct surface *surface = boundary->surfaces[hit->surface];
+    contact->surface = hit->surface;
+    for (int k = 0; k < 3; ++k) {
+        contact->shift[k] = hit->shift[k];
+        contact->u[k] = contact->a[k] = 0.0;
+    }
+    for (int j = 0; j < 4; ++j)
+        contact->nodes[j] = -1;
+    if (!hit->piece) {
+        double at[3] = {contact->c[0] - hit->shift[0], contact->c[1] - hit->shift[1],
+                        contact->c[2] - hit->shift[2]};
+        motion_frame_place(&s->shapes[hit->surface].frame, at, contact->u, contact->a);
+        contact->nodes[0] = 0;
+        contact->nodes_weight[0] = 1.0;
+        return;
+    }
+    int n_nodes = s->facets[hit->piece->facet].n_nodes;
+    piece_weights(hit->piece, n_nodes, hit->at.closest, contact->nodes_weight);
+    for (int j = 0; j < n_nodes; ++j) {
+        int32_t node = surface->nodes[hit->facet][j];
+        contact->nodes[j] = node;
+        for (int k = 0; k < 3; ++k) {
+            contact->u[k] += contact->nodes_weight[j] * surface->now.v[node][k];
+            contact->a[k] += contact->nodes_weight[j] * surface->now.a[node][k];
+        }
+    }
+}
+
+/** A block at the closest point, in the direction from the particle to it, with weight 1: the paper's. */
+static void contact_at_point(struct contact *contact, const struct hit *hit, const double x[3])
+{
+    double d = distance(hit->place, x);
+    contact->d = d;
+    contact->front = hit->at.d >= 0.0;
+    for (int k = 0; k < 3; ++k) {
+        contact->c[k] = contact->o[k] = hit->place[k];
+        contact->normal[k] = hit->normal[k];
+        contact->e_r[k] = d > 0.0 ? (hit->place[k] - x[k]) / d : -hit->normal[k];
+    }
+    for (int k = 0; k < SHARES; ++k)
+        contact->weight[k] = 1.0;
+}
+
+/** A block on the plane of a facet, at the foot point. */
+static void contact_at_plane(struct contact *contact, const struct hit *hit, const double x[3])
+{
+    double d = hit->at.d, side = d < 0.0 ? 1.0 : -1.0;
+    contact->d = fabs(d);
+    contact->front = d >= 0.0;
+    for (int k = 0; k < 3; ++k) {
+        contact->c[k] = hit->place[k];
+        contact->normal[k] = hit->normal[k];
+        contact->e_r[k] = side * hit->normal[k];
+        contact->o[k] = x[k] - d * hit->normal[k];
+    }
+}
+
+static bool coplanar(const struct sliding *s, const double normal_a[3], double d_a, const double normal_b[3],
+                     double d_b)
+{
+    return dot(normal_a, normal_b) > 1.0 - COPLANAR_COSINE &&
+           fabs(d_a - d_b) < COPLANAR_DISTANCE * s->shares.dx;
+}
+
+/** Whether all facets in range are parts of one plane that the particle is in front of: then it is the
+ * paper's flat wall. The nearest one is returned. */
+static const struct hit *flat_wall(const struct sliding *s, const struct hit *hits, size_t n)
+{
+    const struct hit *best = NULL;
+    for (size_t h = 0; h < n; ++h) {
+        const struct hit *hit = &hits[h];
+        if (!hit->piece)
+            continue;
+        if (hit->at.d < 0.0 ||
+            (best && !coplanar(s, hit->piece->normal, hit->at.d, best->piece->normal, best->at.d)))
+            return NULL;
+        if (!best || hit->at.distance < best->at.distance)
+            best = hit;
+    }
+    return best;
+}
+
+static void hit_shares(const struct sliding *s, const struct hit *hit, double share[SHARES])
+{
+    const struct piece *piece = hit->piece;
+    const double *foot = hit->at.foot;
+    if (piece->n == 2) {
+        facet_shares_segment(&s->shares, hit->at.d, -foot[0], piece->corner[1][0] - foot[0], share);
+        return;
+    }
+    double corners[4][2];
+    for (int c = 0; c < piece->n; ++c) {
+        corners[c][0] = piece->corner[c][0] - foot[0];
+        corners[c][1] = piece->corner[c][1] - foot[1];
+    }
+    facet_shares_polygon(&s->shares, hit->at.d, piece->n, (const double(*)[2])corners, share);
+}
+
+/** Add a facet's shares to the contact of its plane, or make one. */
+static size_t add_facet(const struct sliding *s, struct hit *hit, const double x[3], struct contact *contacts,
+                        const struct hit **owner, size_t n)
+{
+    double share[SHARES];
+    hit_shares(s, hit, share);
+    if (share[SHARE_DENSITY] == 0.0 && share[SHARE_PRESSURE] == 0.0 && share[SHARE_VISCOUS] == 0.0)
+        return n;
+    sliding_hit_place(hit);
+    size_t g = 0;
+    while (g < n && !(owner[g]->piece && owner[g]->surface == hit->surface &&
+                      coplanar(s, owner[g]->normal, owner[g]->at.d, hit->normal, hit->at.d)))
+        ++g;
+    if (g == n || hit->at.distance < owner[g]->at.distance) {
+        struct contact *contact = &contacts[g];
+        if (g == n)
+            for (int k = 0; k < SHARES; ++k)
+                contact->weight[k] = 0.0;
+        contact_at_plane(contact, hit, x);
+        owner[g] = hit;
+    }
+    for (int k = 0; k < SHARES; ++k)
+        contacts[g].weight[k] += share[k];
+    return g == n ? n + 1 : n;
+}
+
+/** Back-facing facets use the sums of the strongest front contact; their viscous shares go to the front
+ * contacts. */
+static void fold_back(const struct sliding *s, struct contact *contacts, size_t n)
+{
+    double front = 0.0, back = 0.0;
+    size_t strongest = n;
+    for (size_t k = 0; k < n; ++k) {
+        double viscous = contacts[k].weight[SHARE_VISCOUS] * facet_shares_viscous(&s->shares, contacts[k].d);
+        contacts[k].source = (int32_t)k;
+        if (contacts[k].front) {
+            front += viscous;
+            if (strongest == n ||
+                contacts[k].weight[SHARE_PRESSURE] > contacts[strongest].weight[SHARE_PRESSURE])
+                strongest = k;
+        } else {
+            back += viscous;
+        }
+    }
+    double factor = front > 0.0 ? fmax(0.0, 1.0 + back / front) : 1.0;
+    for (size_t k = 0; k < n; ++k) {
+        if (contacts[k].front) {
+            contacts[k].weight[SHARE_VISCOUS] *= factor;
+        } else {
+            contacts[k].weight[SHARE_VISCOUS] = 0.0;
+            if (strongest < n)
+                contacts[k].source = (int32_t)strongest;
+        }
+    }
+}
+
+/** Contacts of one particle with facet shares. */
+static size_t shares_contacts(const struct boundary *boundary, size_t near, const double x[3],
+                              struct sliding_work *work)
+{
+    const struct sliding *s = boundary->data;
+    struct hit *hits = work->hits;
+    double at[3] = {x[0], x[1], x[2]}, c[3], normal[3];
+    size_t n_hits = sliding_hits(boundary, near, at, hits), nearest, n = 0;
+    if (sliding_penetrated(s, hits, n_hits, at, c, normal, &nearest)) {
+        for (int k = 0; k < 3; ++k)
+            at[k] = c[k] + OUTSIDE_EVALUATE * s->shares.dx * normal[k];
+        n_hits = sliding_hits(boundary, near, at, hits);
+    }
+    const struct hit *flat = flat_wall(s, hits, n_hits);
+    for (size_t h = 0; h < n_hits; ++h) {
+        struct hit *hit = &hits[h];
+        if (hit->piece && !flat) {
+            n = add_facet(s, hit, at, work->contacts, work->owners, n);
+        } else if (!hit->piece || hit == flat) {
+            struct contact *contact = &work->contacts[n];
+            sliding_hit_place(hit);
+            if (hit->at.distance - fabs(hit->at.d) > s->snap)
+                contact_at_plane(contact, hit, at);
+            else
+                contact_at_point(contact, hit, at);
+            contact->front = true;
+            for (int k = 0; k < SHARES; ++k)
+                contact->weight[k] = 1.0;
+            work->owners[n++] = hit;
+        }
+    }
+    for (size_t k = 0; k < n; ++k)
+        sliding_contact_finish(boundary, work->owners[k], &work->contacts[k]);
+    fold_back(s, work->contacts, n);
+    return n;
+}
+
+/** Whether a point is the same as another of lower dimension, or lies in the disc that a point of higher
+ * dimension (surface, then edge) cuts out of the support (paper 000 remark 6). */
+static bool removed(const struct sliding *s, const struct hit *hits, size_t n, size_t h)
+{
+    const double rc = s->shares.kernel.support;
+    for (size_t k = 0; k < n; ++k) {
+        if (k == h)
+            continue;
+        double apart = distance(hits[k].place, hits[h].place);
+        bool lower = hits[k].at.feature < hits[h].at.feature;
+        if (apart < s->snap && (lower || (hits[k].at.feature == hits[h].at.feature && k < h)))
+            return true;
+        if (hits[k].at.feature > hits[h].at.feature &&
+            apart * apart <= rc * rc - hits[k].at.distance * hits[k].at.distance)
+            return true;
+    }
+    return false;
+}
+
+/** Contacts of one particle by the published rule. */
+static size_t paper_contacts(const struct boundary *boundary, size_t near, const double x[3],
+                             struct sliding_work *work)
+{
+    const struct sliding *s = boundary->data;
+    struct hit *hits = work->hits;
+    size_t n_hits = sliding_hits(boundary, near, x, hits), n = 0;
+    for (size_t h = 0; h < n_hits; ++h)
+        sliding_hit_place(&hits[h]);
+    for (size_t h = 0; h < n_hits; ++h) {
+        if (removed(s, hits, n_hits, h))
+            continue;
+        struct contact *contact = &work->contacts[n];
+        contact_at_point(contact, &hits[h], x);
+        contact->front = true;
+        contact->source = (int32_t)n++;
+        sliding_contact_finish(boundary, &hits[h], contact);
+    }
+    return n;
+}
+
+/** Sum of the kernel over a block at distance @p d. */
+static double block_kernel_sum(const struct sliding *s, double d)
+{
+    const struct kernel *kernel = &s->shares.kernel;
+    const int q = s->shares.layers;
+    const double dx = s->shares.dx;
+    double sum = 0.0;
+    for (int m = 0; m < q; ++m)
+        for (int a = 0; a < (kernel->dim > 1 ? q : 1); ++a)
+            for (int b = 0; b < (kernel->dim > 2 ? q : 1); ++b) {
+                double y = d + (m + 0.5) * dx, r2 = y * y + (double)(a * a + b * b) * dx * dx;
+                if (r2 < kernel->support * kernel->support)
+                    sum += (a ? 2.0 : 1.0) * (b ? 2.0 : 1.0) * kernel_w(kernel, sqrt(r2));
+            }
+    return sum;
+}
+
+/** Contacts of one near particle into its slots; returns how many there are, stored only if they fit. */
+static size_t particle_contacts(struct boundary *boundary, const struct fluid_view *view, size_t near,
+                                struct sliding_work *work)
+{
+    struct sliding *s = boundary->data;
+    const uint32_t i = boundary->near[near];
+    const double x[3] = {view->particles->x[0][i], view->particles->x[1][i], view->particles->x[2][i]};
+    size_t n = s->paper ? paper_contacts(boundary, near, x, work) : shares_contacts(boundary, near, x, work);
+    if (n > s->contact_start[near + 1] - s->contact_start[near])
+        return n;
+    double sum = 0.0;
+    for (size_t k = 0; k < n; ++k)
+        sum += work->contacts[k].weight[SHARE_DENSITY] * block_kernel_sum(s, work->contacts[k].d);
+    memcpy(&s->contacts[s->contact_start[near]], work->contacts, n * sizeof *work->contacts);
+    boundary->kernel_sum[near] = sum;
+    return n;
+}
+
+int sliding_prepare(struct boundary *boundary, const struct fluid_view *view)
+{
+    struct sliding *s = boundary->data;
+    const size_t n = boundary->n_near;
+    sliding_place(boundary);
+    int full;
+    do {
+        full = 0;
+#pragma omp parallel for schedule(dynamic, 16) reduction(max : full)
+        for (size_t near = 0; near < n; ++near) {
+            struct sliding_work *work = &s->work[omp_get_thread_num()];
+            size_t count = particle_contacts(boundary, view, near, work);
+            s->contact_count[near] = (uint32_t)count;
+            if (count > s->contact_start[near + 1] - s->contact_start[near])
+                full = 1;
+        }
+        if (!full)
+            break;
+        size_t offset = 0;
+        for (size_t near = 0; near < n; ++near) {
+            size_t room = s->contact_start[near + 1] - s->contact_start[near], count = s->contact_count[near];
+            s->contact_start[near] = offset;
+            offset += count > room ? count + 1 : room;
+        }
+        s->contact_start[n] = offset;
+        CALL(memory_grow((void **)&s->contacts, &s->contacts_capacity, offset, sizeof *s->contacts));
+    } while (full);
+    return 0;
+}
+
+/** Move penetrated particle @p i of near number @p near to the fluid side and give the surface its momentum.
+ */
+static void put_particle(struct boundary *boundary, size_t near, double mass, struct particles *particles)
+{
+    struct sliding *s = boundary->data;
+    const uint32_t i = boundary->near[near];
+    struct hit *hits = s->work[0].hits;
+    double x[3] = {particles->x[0][i], particles->x[1][i], particles->x[2][i]}, normal[3];
+    struct contact contact;
+    size_t n = sliding_hits(boundary, near, x, hits), nearest;
+    if (!sliding_penetrated(s, hits, n, x, contact.c, normal, &nearest))
+        return;
+    const struct hit *hit = &hits[nearest];
+    sliding_contact_finish(boundary, hit, &contact);
+    double inward = 0.0, impulse[3], arm[3];
+    for (int k = 0; k < 3; ++k)
+        inward += (particles->u[k][i] - contact.u[k]) * normal[k];
+    inward = fmin(0.0, inward);
+    for (int k = 0; k < 3; ++k) {
+        particles->x[k][i] = contact.c[k] + OUTSIDE_PUT_BACK * s->shares.dx * normal[k];
+        particles->u[k][i] -= inward * normal[k];
+        impulse[k] = mass * inward * normal[k];
+        arm[k] = contact.c[k] - hit->shift[k] - s->shapes[hit->surface].centre[k];
+    }
+    for (int j = 0; j < 4 && contact.nodes[j] >= 0; ++j)
+        for (int k = 0; k < 3; ++k)
+            s->pending[hit->surface][contact.nodes[j]][k] += contact.nodes_weight[j] * impulse[k];
+    if (!hit->piece)
+        for (int k = 0; k < 3; ++k)
+            s->pending_moment[hit->surface][k] +=
+                arm[(k + 1) % 3] * impulse[(k + 2) % 3] - arm[(k + 2) % 3] * impulse[(k + 1) % 3];
+    ++boundary->put_back_count;
+}
+
+int sliding_put_back(struct boundary *boundary, const struct fluid_view *view, struct particles *particles)
+{
+    struct sliding *s = boundary->data;
+    if (view->dim < 3 || s->paper)
+        return 0;
+    for (size_t k = 0; k < boundary->n_surfaces; ++k) {
+        surface_at(boundary->surfaces[k], view->t);
+        memset(s->pending[k], 0, boundary->surfaces[k]->n_points * sizeof **s->pending);
+        memset(s->pending_moment[k], 0, sizeof *s->pending_moment);
+    }
+    sliding_place(boundary);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (size_t near = 0; near < boundary->n_near; ++near) {
+        const uint32_t i = boundary->near[near];
+        const double x[3] = {particles->x[0][i], particles->x[1][i], particles->x[2][i]};
+        struct hit *hits = s->work[omp_get_thread_num()].hits;
+        double c[3], normal[3];
+        size_t n = sliding_hits(boundary, near, x, hits), nearest;
+        s->put[near] = sliding_penetrated(s, hits, n, x, c, normal, &nearest);
+    }
+    for (size_t near = 0; near < boundary->n_near; ++near)
+        if (s->put[near])
+            put_particle(boundary, near, view->mass, particles);
+    return 0;
+}

@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sliding boundary particles (Fuchs et al. 2021, section 3.3): each fluid particle near a wall carries blocks
+// of virtual particles that slide along the wall with it. Facet surfaces take facet shares (facet_shares.h)
+// by default, so that blocks of neighbouring facets add up to one wall at corners of any angle;
+// corners="paper" keeps the published rule for contact points. This file: the object, and the search for near
+// particles.
+#include "wall/sliding_particles.h"
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "wall/wall_list.h"
+
+#include <omp.h>
+#include <string.h>
+
+/** Corners of a plane quad, and points that are one, in lattice spacings and support radii. */
+#define FLAT_PART 0.02
+#define SNAP_PART 1e-7
+
+enum { SHIFT_CODES = 3 };
+
+/** Whether a rotation turns the direction @p axis. */
+static bool turns(const struct motion *motion, const double axis[3])
+{
+    if (motion->kind != MOTION_RIGID || !motion->angle || expression_is_steady(motion->angle))
+        return false;
+    double c = 0.0, n = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        c += axis[k] * motion->axis[k];
+        n += axis[k] * axis[k];
+    }
+    return c * c < (1.0 - 1e-12) * n;
+}
+
+static int check_surface(const struct model *model, const struct model_wall *wall, int index)
+{
+    const struct model_surface *surface = &model->surfaces[index];
+    const int line = wall->where.line, column = wall->where.column;
+    bool facets = surface->kind == SURFACE_FACETS;
+    CHECK(model->dim > 1 || surface->kind == SURFACE_PLANE, STATUS_DECK,
+          "%s:%d:%d: error: <wall name=\"%s\">: in 1-D sliding particles need planes, but surface \"%s\" is "
+          "none",
+          model->path, line, column, wall->name, surface->name);
+    CHECK(facets || surface->motion.kind != MOTION_FIELD, STATUS_DECK,
+          "%s:%d:%d: error: <wall name=\"%s\">: surface \"%s\" is analytic and would be deformed by its "
+          "motion; "
+          "give it as facets, or a rotation and translation",
+          model->path, line, column, wall->name, surface->name);
+    bool tilts = surface->kind == SURFACE_PLANE || (surface->kind == SURFACE_CYLINDER && model->dim == 3);
+    CHECK(!tilts || !turns(&surface->motion, surface->axis), STATUS_DECK,
+          "%s:%d:%d: error: <wall name=\"%s\">: the rotation tilts surface \"%s\"; give it as facets",
+          model->path, line, column, wall->name, surface->name);
+    for (size_t w = 0; w < model->n_walls; ++w)
+        for (size_t s = 0; s < model->walls[w].n_surfaces; ++s)
+            CHECK(&model->walls[w] == wall || model->walls[w].surfaces[s] != index, STATUS_DECK,
+                  "%s:%d:%d: error: <wall name=\"%s\">: surface \"%s\" belongs to wall \"%s\" already",
+                  model->path, line, column, wall->name, surface->name, model->walls[w].name);
+    return 0;
+}
+
+static double facet_size(const struct facets *facets, size_t f)
+{
+    const int32_t *nodes = facets->nodes[f];
+    const int last = nodes[3] >= 0 ? 3 : 2;
+    const double *o = facets->points[nodes[0]];
+    double normal[3] = {0.0, 0.0, 0.0};
+    for (int c = 1; c < last; ++c) {
+        const double *a = facets->points[nodes[c]], *b = facets->points[nodes[c + 1]];
+        normal[0] += (a[1] - o[1]) * (b[2] - o[2]) - (a[2] - o[2]) * (b[1] - o[1]);
+        normal[1] += (a[2] - o[2]) * (b[0] - o[0]) - (a[0] - o[0]) * (b[2] - o[2]);
+        normal[2] += (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+    }
+    double area2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+    return sqrt(0.5 * sqrt(area2) * (last == 2 ? 2.0 : 1.0));
+}
+
+static int sliding_check(const struct model *model, const struct model_wall *wall)
+{
+    const int line = wall->where.line, column = wall->where.column;
+    CHECK(!wall->has_region, STATUS_DECK,
+          "%s:%d:%d: error: <wall name=\"%s\">: sliding particles stand on surfaces; a region of wall "
+          "particles "
+          "belongs to treatment=\"fixed-particles\"",
+          model->path, line, column, wall->name);
+    CHECK(wall->n_surfaces > 0, STATUS_DECK,
+          "%s:%d:%d: error: <wall name=\"%s\">: sliding particles need a surface", model->path, line, column,
+          wall->name);
+    for (size_t k = 0; k < wall->n_surfaces; ++k) {
+        CALL(check_surface(model, wall, wall->surfaces[k]));
+        const struct model_surface *surface = &model->surfaces[wall->surfaces[k]];
+        size_t small = 0;
+        for (size_t f = 0; model->dim == 3 && f < surface->built.n_facets; ++f)
+            small += facet_size(&surface->built, f) < model->fluid.spacing;
+        if (small)
+            log_message(
+                LOG_WARNING,
+                "%s:%d:%d: surface \"%s\" has %zu facets smaller than the particle spacing: walls cost "
+                "less with facets of at least twice the spacing",
+                model->path, line, column, surface->name, small);
+    }
+    return 0;
+}
+
+static void count_facets(const struct boundary *boundary, struct sliding *s)
+{
+    for (size_t k = 0; k < boundary->n_surfaces; ++k) {
+        const struct surface *surface = boundary->surfaces[k];
+        for (size_t f = 0; f < surface->n_facets; ++f) {
+            int n = surface->nodes[f][2] < 0 ? 2 : surface->nodes[f][3] < 0 ? 3 : 4;
+            if (s->facets)
+                s->facets[s->n_facets] =
+                    (struct sliding_facet){(int32_t)k, (int32_t)f, (int32_t)s->n_pieces, 0, n};
+            s->n_pieces += n == 4 ? 4 : 1;
+            ++s->n_facets;
+        }
+    }
+}
+
+static int sliding_allocate(struct boundary *boundary, struct sliding *s)
+{
+    count_facets(boundary, s);
+    CHECK_MEMORY(s->facets = memory_create(s->n_facets, sizeof *s->facets));
+    CHECK_MEMORY(s->pieces = memory_create(s->n_pieces, sizeof *s->pieces));
+    s->n_facets = s->n_pieces = 0;
+    count_facets(boundary, s);
+    CHECK_MEMORY(s->shapes = memory_create(boundary->n_surfaces, sizeof *s->shapes));
+    CHECK_MEMORY(s->pending_moment = memory_create(boundary->n_surfaces, sizeof *s->pending_moment));
+    CHECK_MEMORY(s->pending = memory_create(boundary->n_surfaces, sizeof *s->pending));
+    for (size_t k = 0; k < boundary->n_surfaces; ++k)
+        CHECK_MEMORY(s->pending[k] = memory_create(boundary->surfaces[k]->n_points, sizeof **s->pending));
+    s->n_work = (size_t)omp_get_max_threads();
+    CHECK_MEMORY(s->work = memory_create(s->n_work, sizeof *s->work));
+    return 0;
+}
+
+static int sliding_create(struct boundary *boundary, const struct model *model, const struct fluid_view *view)
+{
+    (void)model;
+    struct sliding *s = memory_create(1, sizeof *s);
+    CHECK_MEMORY(s);
+    boundary->data = s;
+    s->paper = boundary->wall->corners == CORNERS_PAPER;
+    s->gradient = boundary->wall->pressure_gradient;
+    s->snap = SNAP_PART * view->kernel.support;
+    s->flat = FLAT_PART * view->spacing;
+    CALL(facet_shares_create(&s->shares, view->kernel, view->spacing));
+    s->block = (size_t)s->shares.layers;
+    for (int k = 1; k < view->dim; ++k)
+        s->block *= 2 * (size_t)s->shares.layers - 1;
+    s->reach = s->paper ? view->kernel.support : s->shares.range;
+    return sliding_allocate(boundary, s);
+}
+
+static void sliding_destroy(struct boundary *boundary)
+{
+    struct sliding *s = boundary->data;
+    if (!s)
+        return;
+    facet_shares_reset(&s->shares);
+    for (size_t k = 0; s->pending && k < boundary->n_surfaces; ++k)
+        memory_free(s->pending[k]);
+    for (size_t k = 0; s->work && k < s->n_work; ++k) {
+        memory_free(s->work[k].hits);
+        memory_free(s->work[k].contacts);
+        memory_free(s->work[k].owners);
+        wall_neighbours_reset(&s->work[k].neighbours);
+    }
+    void *const arrays[] = {
+        s->facets,        s->pieces,        s->shapes, s->candidates, s->candidate_start, s->pairs,
+        s->stamp,         s->pair_particle, s->mask,   s->count,      s->contact_start,   s->put,
+        s->contact_count, s->contacts,      s->work,   s->pending,    s->pending_moment};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
+        memory_free(arrays[k]);
+    memory_free(s);
+    boundary->data = NULL;
+}
+
+static void place_shape(const struct surface *surface, struct sliding_shape *shape)
+{
+    const struct model_surface *definition = surface->definition;
+    const double *axis = definition->axis;
+    double length = 0.0;
+    motion_frame_at(&definition->motion, surface->now.t, &shape->frame);
+    memcpy(shape->centre, surface->now.x[0], sizeof shape->centre);
+    for (int k = 0; k < 3; ++k) {
+        const double *row = shape->frame.rotation[k];
+        shape->axis[k] = row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2];
+        length += shape->axis[k] * shape->axis[k];
+    }
+    if (surface->dim == 2 && definition->kind == SURFACE_CYLINDER) {
+        shape->axis[0] = shape->axis[1] = 0.0;
+        shape->axis[2] = length = 1.0;
+    }
+    for (int k = 0; k < 3 && length > 0.0; ++k)
+        shape->axis[k] /= sqrt(length);
+}
+
+void sliding_place(struct boundary *boundary)
+{
+    struct sliding *s = boundary->data;
+    if (s->placed && !boundary->moving)
+        return;
+    s->placed = true;
+    for (size_t k = 0; k < boundary->n_surfaces; ++k)
+        if (boundary->surfaces[k]->definition->kind != SURFACE_FACETS)
+            place_shape(boundary->surfaces[k], &s->shapes[k]);
+#pragma omp parallel for schedule(static)
+    for (size_t f = 0; f < s->n_facets; ++f) {
+        struct sliding_facet *facet = &s->facets[f];
+        const struct surface *surface = boundary->surfaces[facet->surface];
+        double x[4][3];
+        struct piece pieces[4];
+        for (int c = 0; c < facet->n_nodes; ++c)
+            memcpy(x[c], surface->now.x[surface->nodes[facet->facet][c]], sizeof x[c]);
+        facet->n_pieces =
+            piece_cut(pieces, (int32_t)f, surface->dim, facet->n_nodes, (const double(*)[3])x, s->flat);
+        memcpy(&s->pieces[facet->pieces], pieces, (size_t)facet->n_pieces * sizeof *pieces);
+    }
+}
+
+/** Note that particle @p j reaches @p item in the image @p shift, once. */
+static int add_pair(struct sliding *s, size_t *n, uint32_t j, int32_t item, const int shift[3])
+{
+    uint32_t bit = 1u << ((shift[0] + 1) + SHIFT_CODES * ((shift[1] + 1) + SHIFT_CODES * (shift[2] + 1)));
+    if (s->stamp[j] != (uint32_t)item + 1) {
+        s->stamp[j] = (uint32_t)item + 1;
+        s->mask[j] = 0;
+    }
+    if (s->mask[j] & bit)
+        return 0;
+    s->mask[j] |= bit;
+    CALL(memory_grow((void **)&s->pairs, &s->pairs_capacity, *n + 1, sizeof *s->pairs));
+    CALL(memory_grow((void **)&s->pair_particle, &s->pair_particle_capacity, *n + 1,
+                     sizeof *s->pair_particle));
+    s->pairs[*n] = (struct candidate){item, {(int8_t)shift[0], (int8_t)shift[1], (int8_t)shift[2]}};
+    s->pair_particle[(*n)++] = j;
+    return 0;
+}
+
+/** Particles within @p reach of a piece, out of those within @p radius of @p place, a point of the piece. */
+static int search_tile(struct sliding *s, const struct fluid_view *view, const struct piece *piece,
+                       const double place[3], double radius, double reach, size_t *n)
+{
+    const double *const *x = (const double *const *)view->particles->x;
+    struct cell_range ranges[CELL_GRID_RANGES];
+    size_t n_ranges = cell_grid_ranges(view->grid, place, radius, ranges);
+    CHECK(n_ranges < CELL_GRID_RANGES, STATUS_NUMERICAL,
+          "a wall facet of %g m is too large for the search for near particles: give smaller facets", radius);
+    for (size_t r = 0; r < n_ranges; ++r) {
+        int shift[3];
+        for (int k = 0; k < 3; ++k) {
+            shift[k] = s->period[k] > 0.0 ? (int)lround(-ranges[r].shift[k] / s->period[k]) : 0;
+            CHECK(shift[k] >= -1 && shift[k] <= 1, STATUS_NUMERICAL,
+                  "a wall facet at (%g, %g, %g) lies more than a period outside the domain", place[0],
+                  place[1], place[2]);
+        }
+        for (uint32_t j = ranges[r].begin; j < ranges[r].end; ++j) {
+            double at[3];
+            for (int k = 0; k < 3; ++k)
+                at[k] = x[k][j] + ranges[r].shift[k];
+            if (fabs(piece_plane_distance(piece, at)) >= reach)
+                continue;
+            struct projection projection;
+            projection_find(&projection, piece, at, 0.0);
+            if (projection.distance < reach)
+                CALL(add_pair(s, n, j, piece->facet, shift));
+        }
+    }
+    return 0;
+}
+
+/** Cut the bounding rectangle of a piece into tiles of a few supports, so that large and slender facets cost
+ * what they touch. */
+static int search_piece(struct sliding *s, const struct fluid_view *view, const struct piece *piece,
+                        double reach, size_t *n)
+{
+    double low[2] = {0.0, 0.0}, high[2] = {0.0, 0.0}, step[2];
+    int tiles[2];
+    for (int c = 1; c < piece->n; ++c)
+        for (int k = 0; k < 2; ++k) {
+            low[k] = fmin(low[k], piece->corner[c][k]);
+            high[k] = fmax(high[k], piece->corner[c][k]);
+        }
+    for (int k = 0; k < 2; ++k) {
+        tiles[k] = (int)ceil(fmax(1.0, (high[k] - low[k]) / view->kernel.support));
+        step[k] = (high[k] - low[k]) / tiles[k];
+    }
+    const double half = 0.5 * sqrt(step[0] * step[0] + step[1] * step[1]);
+    for (int b = 0; b < tiles[1]; ++b)
+        for (int a = 0; a < tiles[0]; ++a) {
+            double local[2] = {low[0] + (a + 0.5) * step[0], low[1] + (b + 0.5) * step[1]}, place[3];
+            struct projection projection;
+            piece_place(piece, local, place);
+            projection_find(&projection, piece, place, 0.0);
+            if (projection.distance <= half)
+                CALL(search_tile(s, view, piece, place, half + reach, reach, n));
+        }
+    return 0;
+}
+
+/** Particles near an analytic surface: all of them are asked, which costs little. Images: that nearest to the
+ * centre of a body in the fluid. */
+static int search_shape(struct boundary *boundary, const struct fluid_view *view, size_t surface,
+                        double reach, size_t *n)
+{
+    struct sliding *s = boundary->data;
+    const struct model_surface *definition = boundary->surfaces[surface]->definition;
+    const struct sliding_shape *shape = &s->shapes[surface];
+    const struct particles *particles = view->particles;
+    bool images = definition->kind != SURFACE_PLANE && !definition->fluid_inside;
+    for (size_t j = 0; j < particles->n; ++j) {
+        int shift[3] = {0, 0, 0};
+        double r[3], along = 0.0, r2 = 0.0, d;
+        for (int k = 0; k < 3; ++k) {
+            r[k] = particles->x[k][j] - shape->centre[k];
+            if (images && s->period[k] > 0.0) {
+                shift[k] = (int)lround(r[k] / s->period[k]);
+                r[k] -= shift[k] * s->period[k];
+            }
+            along += r[k] * shape->axis[k];
+            r2 += r[k] * r[k];
+        }
+        if (definition->kind == SURFACE_PLANE)
+            d = along;
+        else
+            d = sqrt(definition->kind == SURFACE_CYLINDER ? fmax(0.0, r2 - along * along) : r2) -
+                definition->radius;
+        if (fabs(d) >= reach)
+            continue;
+        for (int k = 0; k < 3; ++k)
+            CHECK(shift[k] >= -1 && shift[k] <= 1, STATUS_NUMERICAL,
+                  "surface \"%s\" lies more than a period outside the domain", definition->name);
+        CALL(add_pair(s, n, (uint32_t)j, (int32_t)(s->n_facets + surface), shift));
+    }
+    return 0;
+}
+
+/** Sort the pairs by particle: near particles ascending, candidates ascending. */
+static int fill_near(struct boundary *boundary, const struct fluid_view *view, size_t n_pairs)
+{
+    struct sliding *s = boundary->data;
+    const size_t n = view->particles->n;
+    size_t n_near = 0, offset = 0;
+    CALL(memory_grow((void **)&s->count, &s->count_capacity, n, sizeof *s->count));
+    memset(s->count, 0, n * sizeof *s->count);
+    for (size_t p = 0; p < n_pairs; ++p)
+        n_near += s->count[s->pair_particle[p]]++ == 0;
+    CALL(boundary_reserve_near(boundary, n_near));
+    CALL(memory_grow((void **)&s->candidate_start, &s->candidate_start_capacity, n_near + 1,
+                     sizeof *s->candidate_start));
+    CALL(memory_grow((void **)&s->candidates, &s->candidates_capacity, n_pairs, sizeof *s->candidates));
+    boundary->n_near = n_near;
+    size_t near = 0;
+    for (size_t j = 0; j < n; ++j) {
+        if (!s->count[j])
+            continue;
+        boundary->near[near] = (uint32_t)j;
+        s->candidate_start[near] = offset;
+        offset += s->count[j];
+        s->count[j] = (uint32_t)near++;
+    }
+    s->candidate_start[n_near] = offset;
+    // the starts serve as cursors and are set back afterwards
+    for (size_t p = 0; p < n_pairs; ++p)
+        s->candidates[s->candidate_start[s->count[s->pair_particle[p]]]++] = s->pairs[p];
+    for (size_t k = n_near; k > 0; --k)
+        s->candidate_start[k] = s->candidate_start[k - 1];
+    s->candidate_start[0] = 0;
+    return 0;
+}
+
+/** Room for the contacts of every near particle, and for the hits of the largest in each thread. */
+static int reserve_contacts(struct boundary *boundary)
+{
+    struct sliding *s = boundary->data;
+    const size_t n = boundary->n_near;
+    CALL(
+        memory_grow((void **)&s->contact_start, &s->contact_start_capacity, n + 1, sizeof *s->contact_start));
+    CALL(memory_grow((void **)&s->contact_count, &s->contact_count_capacity, n, sizeof *s->contact_count));
+    CALL(memory_grow((void **)&s->put, &s->put_capacity, n, sizeof *s->put));
+    size_t most = 0, offset = 0;
+    for (size_t k = 0; k < n; ++k) {
+        size_t hits = 0, first = s->candidate_start[k], end = s->candidate_start[k + 1];
+        for (size_t c = first; c < end; ++c) {
+            size_t item = (size_t)s->candidates[c].item;
+            hits += item < s->n_facets && s->facets[item].n_nodes == 4 ? 4 : 1;
+        }
+        most = hits > most ? hits : most;
+        s->contact_start[k] = offset;
+        offset += end - first < 4 ? end - first : 4;
+        s->contact_count[k] = 0;
+    }
+    s->contact_start[n] = offset;
+    CALL(memory_grow((void **)&s->contacts, &s->contacts_capacity, offset, sizeof *s->contacts));
+    for (size_t t = 0; t < s->n_work; ++t) {
+        struct sliding_work *work = &s->work[t];
+        CALL(memory_grow((void **)&work->hits, &work->hits_capacity, most, sizeof *work->hits));
+        CALL(memory_grow((void **)&work->contacts, &work->contacts_capacity, most, sizeof *work->contacts));
+        CALL(memory_grow((void **)&work->owners, &work->owners_capacity, most, sizeof *work->owners));
+    }
+    return 0;
+}
+
+static int sliding_list(struct boundary *boundary, const struct fluid_view *view)
+{
+    struct sliding *s = boundary->data;
+    const size_t n = view->particles->n;
+    const double reach = s->reach + view->skin;
+    size_t n_pairs = 0;
+    for (int k = 0; k < 3; ++k)
+        s->period[k] = view->grid->periodic[k] ? view->grid->upper[k] - view->grid->lower[k] : 0.0;
+    for (size_t k = 0; k < boundary->n_surfaces; ++k)
+        surface_at(boundary->surfaces[k], view->t);
+    sliding_place(boundary);
+    CALL(memory_grow((void **)&s->stamp, &s->stamp_capacity, n, sizeof *s->stamp));
+    CALL(memory_grow((void **)&s->mask, &s->mask_capacity, n, sizeof *s->mask));
+    memset(s->stamp, 0, n * sizeof *s->stamp);
+    for (size_t f = 0; f < s->n_facets; ++f)
+        for (int p = 0; p < s->facets[f].n_pieces; ++p)
+            if (s->pieces[s->facets[f].pieces + p].n)
+                CALL(search_piece(s, view, &s->pieces[s->facets[f].pieces + p], reach, &n_pairs));
+    for (size_t k = 0; k < boundary->n_surfaces; ++k)
+        if (boundary->surfaces[k]->definition->kind != SURFACE_FACETS)
+            CALL(search_shape(boundary, view, k, reach, &n_pairs));
+    CALL(fill_near(boundary, view, n_pairs));
+    CALL(reserve_contacts(boundary));
+    boundary->drift = 0.0;
+    return 0;
+}
+
+const struct boundary_type boundary_sliding_particles = {
+    .name = "sliding-particles",
+    .check = sliding_check,
+    .create = sliding_create,
+    .destroy = sliding_destroy,
+    .list = sliding_list,
+    .put_back = sliding_put_back,
+    .prepare = sliding_prepare,
+    .close = sliding_close,
+    .gather = sliding_gather,
+    .react = sliding_react,
+    .load = sliding_load,
+    .added_mass = sliding_added_mass,
+};

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef WALL_SLIDING_PARTICLES_H
+#define WALL_SLIDING_PARTICLES_H
+
+#include "sph/boundary.h"
+#include "wall/facet_shares.h"
+#include "wall/projection.h"
+
+/** What the parts of the sliding boundary particle treatment share (sliding_particles.c: object, lists;
+ * sliding_contacts.c: contact points; sliding_forces.c: values of the virtual particles, packed neighbours,
+ * loads). */
+
+/** A block of virtual boundary particles behind a wall, of one near particle. Places are in the image of the
+ * particle. */
+struct contact {
+    double c[3];      /**< closest point of the wall: sums, wall motion and load belong there */
+    double o[3];      /**< the block stands here */
+    double d;         /**< distance from the particle to o */
+    double e_r[3];    /**< from the particle to o */
+    double normal[3]; /**< into the fluid */
+    double shift[3];  /**< of the wall's image */
+    double weight[SHARES];
+    double u[3], a[3];                             /**< of the wall at c */
+    double mean_p, mean_rho, mean_u[3], mean_r[3]; /**< smoothed values at c (eqs. 32-34, 36) */
+    double layer;                                  /**< d_f: distance of the centroid from the wall */
+    double p0, p_slope[3];                         /**< p_k = p0 + slope . (m_r + 1/2, m_s, m_t) */
+    double force[3];                               /**< on the wall, N */
+    double nodes_weight[4];
+    int32_t nodes[4]; /**< points of the surface that take the load, -1 unused */
+    int32_t surface;
+    int32_t source; /**< contact of the same particle whose sums are used */
+    size_t tensor;  /**< where its added mass stands in the surface's list, or SIZE_MAX */
+    bool front;     /**< the particle is on the fluid side */
+};
+
+/** The wall point closest to a place, of one candidate. */
+struct hit {
+    const struct piece *piece; /**< NULL: analytic */
+    int32_t surface, facet;    /**< facet of the surface, or -1 */
+    double shift[3];
+    struct projection at; /**< pieces: in their own image; analytic: only d, distance and feature are set */
+    double place[3], normal[3]; /**< closest point and normal; pieces: filled by hit_place */
+};
+
+/** A facet, or an analytic surface, that a near particle can reach until the next sort. */
+struct candidate {
+    int32_t item; /**< facet number over all surfaces; from n_facets on: analytic surface */
+    int8_t shift[3];
+};
+
+struct sliding_facet {
+    int32_t surface, facet; /**< number in the surface */
+    int32_t pieces;         /**< where its pieces start (room for one, a quad for four) */
+    int32_t n_pieces, n_nodes;
+};
+
+/** An analytic surface as it stands now. */
+struct sliding_shape {
+    double centre[3], axis[3];
+    struct motion_frame frame;
+};
+
+struct sliding_work {
+    struct hit *hits;
+    struct contact *contacts;
+    const struct hit **owners; /**< hit of each contact */
+    size_t hits_capacity, contacts_capacity, owners_capacity;
+    struct wall_neighbours neighbours;
+};
+
+struct sliding {
+    struct facet_shares shares;
+    bool paper, gradient;
+    double reach;     /**< contacts further away do not act */
+    double snap;      /**< points closer than this are one */
+    size_t block;     /**< most virtual particles of a contact */
+    double flat;      /**< how far the corners of a plane quad may be off its plane */
+    double period[3]; /**< 0: not periodic */
+    size_t n_facets, n_pieces;
+    struct sliding_facet *facets;
+    struct piece *pieces;
+    struct sliding_shape *shapes; /**< one per surface */
+    bool placed;                  /**< pieces and shapes have been filled once */
+
+    struct candidate *candidates; /**< of near particle k: candidate_start[k] .. candidate_start[k + 1] */
+    size_t candidates_capacity, *candidate_start, candidate_start_capacity, most_hits;
+    struct candidate *pairs; /**< workspace of the search */
+    uint32_t *pair_particle, *stamp, *mask, *count;
+    size_t pairs_capacity, pair_particle_capacity, stamp_capacity, mask_capacity, count_capacity;
+
+    struct contact *contacts; /**< of near particle k: from contact_start[k], contact_count[k] of them */
+    size_t contacts_capacity, *contact_start, contact_start_capacity;
+    uint32_t *contact_count;
+    size_t contact_count_capacity;
+
+    size_t n_work;
+    struct sliding_work *work; /**< one per thread */
+    double (**pending)[3];     /**< per surface and point: impulse of particles put back in this step, N s */
+    double (*pending_moment)[3]; /**< per analytic surface */
+    size_t put_capacity;
+    uint8_t *put; /**< near particles to be put back */
+};
+
+/** Pieces and shapes from the surfaces' current places. */
+void sliding_place(struct boundary *boundary);
+
+/** Closest points of all candidates of near particle @p near to the place @p x within the reach. Returns
+ * their number. */
+size_t sliding_hits(const struct boundary *boundary, size_t near, const double x[3], struct hit *hits);
+
+/** Fill place and normal of a hit. */
+void sliding_hit_place(struct hit *hit);
+
+/** Whether the place @p x lies inside the solid as the nearest of the @p n hits shows; then @p c is the
+ * closest point,
+ * @p normal the unit normal there (averaged at edges and nodes) and *@p nearest the hit. */
+bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t n, const double x[3],
+                        double c[3], double normal[3], size_t *nearest);
+
+/** Nodes, weights, velocity and acceleration of the wall at contact point c of @p hit. */
+void sliding_contact_finish(const struct boundary *boundary, const struct hit *hit, struct contact *contact);
+
+/** The operations of the treatment (sph/boundary.h) that live in the other files. */
+int sliding_prepare(struct boundary *boundary, const struct fluid_view *view);
+int sliding_put_back(struct boundary *boundary, const struct fluid_view *view, struct particles *particles);
+int sliding_close(struct boundary *boundary, const struct fluid_view *view);
+int sliding_gather(const struct boundary *boundary, const struct fluid_view *view, size_t near,
+                   struct wall_neighbours *neighbours);
+void sliding_react(struct boundary *boundary, size_t near, const struct wall_neighbours *neighbours,
+                   double *const force[3]);
+void sliding_load(struct boundary *boundary, const struct fluid_view *view);
+int sliding_added_mass(struct boundary *boundary, const struct fluid_view *view);
+
+#endif
