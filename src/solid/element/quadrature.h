@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef SOLID_ELEMENT_QUADRATURE_H
+#define SOLID_ELEMENT_QUADRATURE_H
+
+#include "model/mesh.h"
+
+/** A rule in natural coordinates: integral of f = sum of weight f(xi). */
+struct quadrature {
+    int n;
+    double xi[8][3];
+    double weight[8];
+};
+
+/** What a rule has to integrate exactly on undistorted elements. */
+enum quadrature_use {
+    QUADRATURE_STIFFNESS, /**< full integration of products of gradients: 2^dim Gauss points, 1 for simplices
+                           */
+    QUADRATURE_MASS       /**< products of shape functions */
+};
+
+/** The rule for a continuum element type (dimension 2 or 3). */
+struct quadrature quadrature_of(enum element_type type, enum quadrature_use use);
+
+#endif

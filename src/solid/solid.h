@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef SOLID_SOLID_H
+#define SOLID_SOLID_H
+
+#include "base/field.h"
+#include "model/model.h"
+#include "model/surface.h"
+
+struct solid;
+
+struct solid_energies {
+    double kinetic, elastic; /**< J (2-D: J/m) */
+    double external;         /**< work done on the solid so far by loads and supports */
+};
+
+/** A material point of a solid. */
+struct solid_place {
+    int element;
+    double xi[3];
+};
+
+/** Say why mesh @p index of the model cannot be solved (STATUS_DECK, reported with its line), or 0. */
+int solid_check(const struct model *model, int index);
+
+/** Create the solid of mesh @p index of the model (checked first). The model must outlive it. Free with
+ * solid_destroy. */
+int solid_create(struct solid **solid, const struct model *model, int index);
+void solid_destroy(struct solid *solid);
+
+/** Map the points of @p surface that belong to this solid's mesh; loads go back by the transpose of this map.
+ */
+int solid_attach(struct solid *solid, struct surface *surface);
+
+/** Initial state into level 1 (and 0) of the attached surfaces; initial accelerations: 0 when coupled, else
+ * from equilibrium. */
+int solid_start(struct solid *solid, double t);
+
+/** Largest stable step (implicit: infinity), s. */
+double solid_stable_step(const struct solid *solid);
+
+/** Start a step from @p t to @p t + @p dt. */
+int solid_begin_step(struct solid *solid, double t, double dt);
+
+/** Predict the end of the step into level 1 of the attached surfaces (a = 2 a_n - a_{n-1} and Newmark). */
+int solid_predict(struct solid *solid);
+
+/** Solve the step with the loads now on the attached surfaces; answer in their trial. */
+int solid_solve(struct solid *solid);
+
+/** One modified-Newton correction with the newest loads and, if @p added_mass, the surfaces' operators;
+ * answer in trial. */
+int solid_correct(struct solid *solid, bool added_mass);
+
+/** State := trial; level 1 of the attached surfaces := trial. */
+int solid_accept(struct solid *solid);
+
+void solid_energies(const struct solid *solid, struct solid_energies *energies);
+
+/** Find the material point at reference place @p X (STATUS_DECK, not reported, when it lies outside the
+ * mesh). */
+int solid_locate(const struct solid *solid, const double X[3], struct solid_place *place);
+
+/** Displacement, velocity, acceleration of a material point. */
+void solid_evaluate(const struct solid *solid, const struct solid_place *place, double d[3], double v[3],
+                    double a[3]);
+
+/** Geometry and fields for output: node and cell groups, current node places, connectivity as in the mesh. */
+const char *solid_name(const struct solid *solid);
+const struct mesh *solid_mesh(const struct solid *solid);
+const double (*solid_positions(const struct solid *solid))[3];
+const struct field_group *solid_node_fields(const struct solid *solid);
+const struct field_group *solid_cell_fields(const struct solid *solid);
+
+/** State that is neither of nodes nor of cells (one item): counters, energies, what the kept factor was made
+ * for. */
+const struct field_group *solid_state_fields(const struct solid *solid);
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef SOLID_SOLID_TYPE_H
+#define SOLID_SOLID_TYPE_H
+
+#include "solid/attachment.h"
+#include "solid/solid.h"
+
+/** A discretisation of solids; the functions do what their namesakes in solid.h say. */
+struct solid_type {
+    const char *name;
+    /** Whether meshes of this kind are its business. */
+    bool (*takes)(const struct model_mesh *mesh);
+    int (*check)(const struct model *model, const struct model_mesh *mesh);
+    /** Build solid->data from solid->model and ->definition. */
+    int (*create)(struct solid *solid);
+    void (*destroy)(struct solid *solid);
+    int (*start)(struct solid *solid);
+    double (*stable_step)(const struct solid *solid);
+    int (*begin_step)(struct solid *solid);
+    int (*predict)(struct solid *solid);
+    int (*solve)(struct solid *solid);
+    int (*correct)(struct solid *solid, bool added_mass);
+    int (*accept)(struct solid *solid);
+    void (*energies)(const struct solid *solid, struct solid_energies *energies);
+    int (*locate)(const struct solid *solid, const double X[3], struct solid_place *place);
+    void (*evaluate)(const struct solid *solid, const struct solid_place *place, double d[3], double v[3],
+                     double a[3]);
+    const double (*(*positions)(const struct solid *solid))[3];
+    const struct field_group *(*node_fields)(const struct solid *solid);
+    const struct field_group *(*cell_fields)(const struct solid *solid);
+    const struct field_group *(*state_fields)(const struct solid *solid);
+};
+
+/** What all discretisations share. */
+struct solid {
+    const struct solid_type *type;
+    const struct model *model;
+    const struct model_mesh *definition;
+    int index;    /**< of the mesh in the model */
+    double t, dt; /**< start and length of the step under way, s */
+    size_t n_attachments;
+    struct attachment *attachments;
+    bool *claimed; /**< per node: an attachment has it */
+    void *data;    /**< of the discretisation */
+};
+
+#endif
