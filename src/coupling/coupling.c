@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupling/coupling.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "coupling/coupling_list.h"
+
+#include <string.h>
+
+const struct coupling_type *coupling_choose(const struct model *model)
+{
+    const char *name = model->coupling.scheme;
+    if (!name || !model->fluid.present || !model->n_meshes)
+        return model->fluid.present && model->n_meshes ? &coupling_fixed_point : &coupling_one_field;
+    for (size_t k = 0; k < COUPLING_TYPES; ++k)
+        if (!strcmp(coupling_types[k]->name, name))
+            return coupling_types[k];
+    error_report(STATUS_DECK, "%s:%d:%d: error: <coupling>: unknown scheme \"%s\"", model->path,
+                 model->coupling.where.line, model->coupling.where.column, name);
+    return NULL;
+}
+
+static int acceleration_create(struct coupling *coupling, const struct model_coupling *definition)
+{
+    const char *name = definition->acceleration ? definition->acceleration : "added-mass";
+    enum relaxation_kind kind = !strcmp(name, "aitken")     ? RELAXATION_AITKEN
+                                : !strcmp(name, "constant") ? RELAXATION_CONSTANT
+                                                            : RELAXATION_NONE;
+    coupling->added_mass = !strcmp(name, "added-mass");
+    coupling->difference = memory_create(coupling->n_dof, sizeof *coupling->difference);
+    CHECK_MEMORY(coupling->difference);
+    return relaxation_create(&coupling->relaxation, kind, definition->relaxation, coupling->n_dof);
+}
+
+int coupling_create(struct coupling **coupling, const struct model *model, const struct coupling_parts *parts)
+{
+    struct coupling *c = memory_create(1, sizeof *c);
+    CHECK_MEMORY(c);
+    c->parts = *parts;
+    c->definition = &model->coupling;
+    c->type = coupling_choose(model);
+    for (size_t s = 0; s < parts->n_surfaces; ++s)
+        if (parts->surfaces[s]->coupled)
+            c->n_dof += (size_t)model->dim * parts->surfaces[s]->n_points;
+    int status = c->type ? acceleration_create(c, c->definition) : STATUS_DECK;
+    if (status) {
+        coupling_destroy(c);
+        return status;
+    }
+    *coupling = c;
+    return 0;
+}
+
+void coupling_destroy(struct coupling *coupling)
+{
+    if (!coupling)
+        return;
+    relaxation_destroy(coupling->relaxation);
+    memory_free(coupling->difference);
+    memory_free(coupling);
+}
+
+int coupling_start(struct coupling *coupling, double t)
+{
+    struct coupling_parts *parts = &coupling->parts;
+    for (size_t k = 0; k < parts->n_solids; ++k)
+        CALL(solid_start(parts->solids[k], t));
+    if (parts->fluid)
+        CALL(fluid_start(parts->fluid, t));
+    return 0;
+}
+
+int coupling_step(struct coupling *coupling, double t, double dt)
+{
+    CALL(coupling->type->step(coupling, t, dt));
+    for (size_t s = 0; s < coupling->parts.n_surfaces; ++s)
+        surface_add_impulse(coupling->parts.surfaces[s], dt, SURFACE_LOAD_END);
+    coupling->total_iterations += coupling->iterations;
+    ++coupling->steps;
+    return 0;
+}

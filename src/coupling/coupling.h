@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef COUPLING_COUPLING_H
+#define COUPLING_COUPLING_H
+
+#include "base/timer.h"
+#include "coupling/relaxation.h"
+#include "fluid/fluid.h"
+#include "model/model.h"
+#include "solid/solid.h"
+
+/** The parts of a simulation (not owned). fluid may be NULL, n_solids 0. */
+struct coupling_parts {
+    struct fluid *fluid;
+    struct solid **solids;
+    size_t n_solids;
+    struct surface **surfaces;
+    size_t n_surfaces;
+    struct timer *timer;
+};
+
+struct coupling;
+
+/** A coupling scheme: one step of the whole system. */
+struct coupling_type {
+    const char *name;
+    /** Why the model cannot be run with this scheme (reported, STATUS_DECK), or 0. */
+    int (*check)(const struct model *model);
+    int (*step)(struct coupling *coupling, double t, double dt);
+};
+
+struct coupling {
+    const struct coupling_type *type;
+    const struct model_coupling *definition;
+    struct coupling_parts parts;
+    bool added_mass;               /**< use the surfaces' added-mass operators */
+    struct relaxation *relaxation; /**< of the displacements of all coupled surfaces */
+    size_t n_dof;                  /**< dim x points of the coupled surfaces, clamped ones too */
+    double *difference;            /**< trial minus level 1, n_dof entries */
+    int iterations;                /**< of the last step: calls of fluid_interface */
+    double residual;               /**< of the last step: eq. 46, m/s */
+    long total_iterations, steps;
+};
+
+/** The scheme the model asks for, or the default for its parts; NULL (reported) when there is none of that
+ * name. */
+const struct coupling_type *coupling_choose(const struct model *model);
+
+int coupling_create(struct coupling **coupling, const struct model *model,
+                    const struct coupling_parts *parts);
+void coupling_destroy(struct coupling *coupling);
+
+/** Initial evaluation of all parts at @p t. */
+int coupling_start(struct coupling *coupling, double t);
+
+/** Advance everything from @p t by @p dt. */
+int coupling_step(struct coupling *coupling, double t, double dt);
+
+#endif

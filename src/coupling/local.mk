@@ -1,0 +1,5 @@
+libskerry_la_SOURCES += \
+	src/coupling/coupling.c src/coupling/coupling.h src/coupling/coupling_list.h \
+	src/coupling/fixed_point.c \
+	src/coupling/one_field.c \
+	src/coupling/relaxation.c src/coupling/relaxation.h

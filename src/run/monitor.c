@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/monitor.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "output/history.h"
+
+#include <math.h>
+
+struct monitor {
+    const struct model_history *definition;
+    struct history file;
+    bool open;
+    long next; /**< number of the next sample */
+    struct solid_place place;
+};
+
+struct monitors {
+    const struct model *model;
+    const struct coupling *coupling;
+    size_t n;
+    struct monitor *monitors;
+};
+
+bool schedule_due(double every, double t, double step, long *next)
+{
+    if (every <= 0.0)
+        return true;
+    if (t < (double)*next * every - 1e-6 * step)
+        return false;
+    *next = (long)floor((t + 1e-6 * step) / every) + 1;
+    return true;
+}
+
+/** Column names by kind and dimension: forces and energies of 2-D problems are per metre of depth. */
+static int columns_open(struct monitor *monitor, int dim, const char *path)
+{
+    static const char *const point[] = {
+        "t [s]",     "x displacement [m]", "y displacement [m]", "z displacement [m]",
+        "u_x [m/s]", "u_y [m/s]",          "u_z [m/s]"};
+    static const char *const force2[] = {"t [s]",       "F_x [N/m]",   "F_y [N/m]",  "F_z [N/m]",
+                                         "M_x [N m/m]", "M_y [N m/m]", "M_z [N m/m]"};
+    static const char *const force3[] = {"t [s]",     "F_x [N]",   "F_y [N]",  "F_z [N]",
+                                         "M_x [N m]", "M_y [N m]", "M_z [N m]"};
+    static const char *const gauge[] = {"t [s]",     "p [Pa]",       "u_x [m/s]",  "u_y [m/s]",
+                                        "u_z [m/s]", "rho [kg/m^3]", "support [-]"};
+    static const char *const profile[] = {"t [s]",     "s [m]",        "x [m]",      "y [m]",
+                                          "z [m]",     "p [Pa]",       "u_x [m/s]",  "u_y [m/s]",
+                                          "u_z [m/s]", "rho [kg/m^3]", "support [-]"};
+    static const char *const volume2[] = {"t [s]",
+                                          "particles [-]",
+                                          "mass [kg/m]",
+                                          "volume [m^2]",
+                                          "rho_min [kg/m^3]",
+                                          "rho_max [kg/m^3]",
+                                          "zone particles [-]"};
+    static const char *const volume3[] = {"t [s]",
+                                          "particles [-]",
+                                          "mass [kg]",
+                                          "volume [m^3]",
+                                          "rho_min [kg/m^3]",
+                                          "rho_max [kg/m^3]",
+                                          "zone particles [-]"};
+    static const char *const energy2[] = {"t [s]", "fluid kinetic [J/m]", "solid kinetic [J/m]",
+                                          "elastic [J/m]", "work on solids [J/m]"};
+    static const char *const energy3[] = {"t [s]", "fluid kinetic [J]", "solid kinetic [J]", "elastic [J]",
+                                          "work on solids [J]"};
+    static const char *const coupling[] = {"t [s]", "iterations [-]", "residual [m/s]"};
+    switch (monitor->definition->kind) {
+    case HISTORY_POINT:
+        return history_create(&monitor->file, path, point, 7);
+    case HISTORY_FORCE:
+        return history_create(&monitor->file, path, dim == 3 ? force3 : force2, 7);
+    case HISTORY_GAUGE:
+        return history_create(&monitor->file, path, gauge, 7);
+    case HISTORY_PROFILE:
+        return history_create(&monitor->file, path, profile, 11);
+    case HISTORY_VOLUME:
+        return history_create(&monitor->file, path, dim == 3 ? volume3 : volume2, 7);
+    case HISTORY_ENERGY:
+        return history_create(&monitor->file, path, dim == 3 ? energy3 : energy2, 5);
+    case HISTORY_COUPLING:
+        return history_create(&monitor->file, path, coupling, 3);
+    }
+    return STATUS_DECK;
+}
+
+static int monitor_open(struct monitors *monitors, struct monitor *monitor, const char *folder)
+{
+    const struct model_history *definition = monitor->definition;
+    if (definition->kind == HISTORY_POINT)
+        CHECK(!solid_locate(monitors->coupling->parts.solids[definition->mesh], definition->from,
+                            &monitor->place),
+              STATUS_DECK, "%s:%d:%d: error: <history name=\"%s\">: (%g, %g, %g) lies outside mesh \"%s\"",
+              monitors->model->path, definition->where.line, definition->where.column, definition->name,
+              definition->from[0], definition->from[1], definition->from[2],
+              monitors->model->meshes[definition->mesh].name);
+    char *path = memory_print("%s/history/%s.csv", folder, definition->name);
+    CHECK_MEMORY(path);
+    int status = columns_open(monitor, monitors->model->dim, path);
+    memory_free(path);
+    monitor->open = !status;
+    return status;
+}
+
+int monitors_create(struct monitors **monitors, const struct model *model, const struct coupling *coupling,
+                    const char *folder)
+{
+    struct monitors *m = memory_create(1, sizeof *m);
+    CHECK_MEMORY(m);
+    *monitors = m;
+    m->model = model;
+    m->coupling = coupling;
+    m->monitors = memory_create(model->output.n_histories, sizeof *m->monitors);
+    CHECK_MEMORY(m->monitors);
+    m->n = model->output.n_histories;
+    for (size_t k = 0; k < m->n; ++k)
+        m->monitors[k].definition = &model->output.histories[k];
+    for (size_t k = 0; k < m->n; ++k)
+        CALL(monitor_open(m, &m->monitors[k], folder));
+    return 0;
+}
+
+static int force_row(const struct monitors *monitors, struct monitor *monitor, double t)
+{
+    static const double origin[3];
+    double row[7] = {t};
+    for (int s = 0; s < monitor->definition->n_surfaces; ++s) {
+        double force[3], moment[3];
+        surface_total_load(monitors->coupling->parts.surfaces[monitor->definition->surfaces[s]], origin,
+                           force, moment);
+        for (int k = 0; k < 3; ++k) {
+            row[1 + k] += force[k];
+            row[4 + k] += moment[k];
+        }
+    }
+    return history_row(&monitor->file, row);
+}
+
+static int profile_rows(const struct monitors *monitors, struct monitor *monitor, double t)
+{
+    const struct model_history *definition = monitor->definition;
+    const bool line = definition->kind == HISTORY_PROFILE;
+    const int points = line ? definition->points : 1;
+    double length = 0.0;
+    for (int k = 0; k < 3; ++k)
+        length += pow(definition->to[k] - definition->from[k], 2.0);
+    for (int i = 0; i < points; ++i) {
+        double row[11] = {t}, s = points > 1 ? (double)i / (points - 1) : 0.0, x[3];
+        double *value = line ? row + 5 : row + 1;
+        for (int k = 0; k < 3; ++k)
+            x[k] = line ? (1.0 - s) * definition->from[k] + s * definition->to[k] : definition->from[k];
+        if (line) {
+            row[1] = s * sqrt(length);
+            for (int k = 0; k < 3; ++k)
+                row[2 + k] = x[k];
+        }
+        value[5] = fluid_probe(monitors->coupling->parts.fluid, x, &value[0], &value[1], &value[4]);
+        CALL(history_row(&monitor->file, row));
+    }
+    return 0;
+}
+
+static int volume_row(const struct monitors *monitors, struct monitor *monitor, double t)
+{
+    const struct particles *block = fluid_particles(monitors->coupling->parts.fluid);
+    double row[7] = {t, 0.0, 0.0, 0.0, INFINITY, -INFINITY, 0.0};
+    for (size_t i = 0; i < block->n; ++i) {
+        if (block->kind[i] != PARTICLE_FLUID) {
+            row[6] += 1.0;
+            continue;
+        }
+        row[1] += 1.0;
+        row[2] += block->m[i];
+        row[3] += block->m[i] / block->rho[i];
+        row[4] = fmin(row[4], block->rho[i]);
+        row[5] = fmax(row[5], block->rho[i]);
+    }
+    return history_row(&monitor->file, row);
+}
+
+static int energy_row(const struct monitors *monitors, struct monitor *monitor, double t)
+{
+    const struct coupling_parts *parts = &monitors->coupling->parts;
+    double row[5] = {t};
+    const struct particles *block = parts->fluid ? fluid_particles(parts->fluid) : NULL;
+    for (size_t i = 0; block && i < block->n; ++i)
+        if (block->kind[i] == PARTICLE_FLUID)
+            for (int k = 0; k < 3; ++k)
+                row[1] += 0.5 * block->m[i] * block->u[k][i] * block->u[k][i];
+    for (size_t s = 0; s < parts->n_solids; ++s) {
+        struct solid_energies energies;
+        solid_energies(parts->solids[s], &energies);
+        row[2] += energies.kinetic;
+        row[3] += energies.elastic;
+        row[4] += energies.external;
+    }
+    return history_row(&monitor->file, row);
+}
+
+static int monitor_write(const struct monitors *monitors, struct monitor *monitor, double t)
+{
+    const struct coupling *coupling = monitors->coupling;
+    switch (monitor->definition->kind) {
+    case HISTORY_POINT: {
+        double row[7] = {t}, a[3];
+        solid_evaluate(coupling->parts.solids[monitor->definition->mesh], &monitor->place, row + 1, row + 4,
+                       a);
+        return history_row(&monitor->file, row);
+    }
+    case HISTORY_FORCE:
+        return force_row(monitors, monitor, t);
+    case HISTORY_GAUGE:
+    case HISTORY_PROFILE:
+        return profile_rows(monitors, monitor, t);
+    case HISTORY_VOLUME:
+        return volume_row(monitors, monitor, t);
+    case HISTORY_ENERGY:
+        return energy_row(monitors, monitor, t);
+    case HISTORY_COUPLING: {
+        double row[3] = {t, coupling->iterations, coupling->residual};
+        return history_row(&monitor->file, row);
+    }
+    }
+    return 0;
+}
+
+int monitors_sample(struct monitors *monitors, double t, double step)
+{
+    for (size_t k = 0; k < monitors->n; ++k) {
+        struct monitor *monitor = &monitors->monitors[k];
+        if (schedule_due(monitor->definition->every, t, step, &monitor->next))
+            CALL(monitor_write(monitors, monitor, t));
+    }
+    return 0;
+}
+
+int monitors_close(struct monitors *monitors)
+{
+    int status = 0;
+    for (size_t k = 0; k < monitors->n; ++k)
+        if (monitors->monitors[k].open) {
+            int result = history_close(&monitors->monitors[k].file);
+            monitors->monitors[k].open = false;
+            status = status ? status : result;
+        }
+    return status;
+}
+
+void monitors_destroy(struct monitors *monitors)
+{
+    if (!monitors)
+        return;
+    monitors_close(monitors);
+    memory_free(monitors->monitors);
+    memory_free(monitors);
+}
