@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Section <coupling>.
+#include "deck/deck_node.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+/** Whether some wall has the skin of a mesh. */
+static bool fluid_meets_solid(const struct model *model)
+{
+    for (size_t w = 0; w < model->n_walls; w++)
+        for (size_t i = 0; i < model->walls[w].n_surfaces; i++) {
+            const struct model_surface *surface = &model->surfaces[model->walls[w].surfaces[i]];
+            for (size_t p = 0; p < surface->n_parts; p++)
+                if (surface->parts[p].mesh >= 0)
+                    return true;
+        }
+    return false;
+}
+
+/** The section with all its defaults, as if it had been written. */
+static struct deck_node *add_section(struct deck *deck)
+{
+    struct deck_node *node = deck_memory(deck, 1, sizeof *node);
+    if (!node)
+        return NULL;
+    struct deck_node **last = &deck->root->children;
+    while (*last && (*last)->id < SCHEMA_COUPLING)
+        last = &(*last)->next;
+    node->id = SCHEMA_COUPLING;
+    node->element = schema_element(SCHEMA_COUPLING);
+    node->where = deck->root->where;
+    node->parent = deck->root;
+    node->attributes = deck_memory(deck, schema_attribute_count(node->element), sizeof *node->attributes);
+    node->next = *last;
+    *last = node;
+    return node->attributes ? node : NULL;
+}
+
+int deck_read_coupling(struct deck *deck)
+{
+    struct deck_node *node = deck_child(deck->root, SCHEMA_COUPLING);
+    struct model_coupling *coupling = &deck->model->coupling;
+    const bool meet = fluid_meets_solid(deck->model);
+    if (!node)
+        CHECK_MEMORY(node = add_section(deck));
+    if (!deck_has(node, "scheme"))
+        deck_fill(deck, node, "scheme", "%s", meet ? "fixed-point" : "none");
+    coupling->where = node->where;
+    coupling->scheme = deck_word(deck, node, "scheme");
+    coupling->tolerance = deck_real(deck, node, "tolerance");
+    coupling->iterations = deck_integer(deck, node, "iterations");
+    coupling->acceleration = deck_word(deck, node, "acceleration");
+    coupling->relaxation = deck_real(deck, node, "relaxation");
+    const bool none = coupling->scheme && strcmp(coupling->scheme, "none") == 0;
+    if (deck->n_problems > 0) // surfaces or walls may be missing
+        return deck->status;
+    if (none && meet)
+        deck_error(deck, node, "scheme",
+                   "a wall has the skin of a mesh, so that fluid and solid need scheme=\"fixed-point\"");
+    else if (!none && !meet && coupling->scheme)
+        deck_error(deck, node, "scheme",
+                   "no wall has the skin of a mesh: nothing is coupled, use scheme=\"none\" or leave "
+                   "out <coupling>");
+    return deck->status;
+}
