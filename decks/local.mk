@@ -1,0 +1,17 @@
+nobase_dist_pkgdata_DATA += \
+	decks/exact-hydrostatic-3d/README.md \
+	decks/exact-hydrostatic-3d/exact-hydrostatic-3d.xml \
+	decks/exact-hydrostatic-3d/exact_hydrostatic_3d.csv \
+	decks/exact-pressurewave-1d/README.md \
+	decks/exact-pressurewave-1d/exact-pressurewave-1d.xml \
+	decks/exact-pressurewave-1d/exact_pressurewave_1d.csv \
+	decks/hydrostatic-plates/README.md \
+	decks/hydrostatic-plates/hydrostatic-plates.xml \
+	decks/hydrostatic-plates/hydrostatic_plates_analytic.csv \
+	decks/taylor-couette/README.md \
+	decks/taylor-couette/taylor-couette.xml \
+	decks/taylor-couette/taylor_couette_analytic.csv \
+	decks/taylor-couette/taylor_couette_transient.csv \
+	decks/turek-hron-fsi2/README.md \
+	decks/turek-hron-fsi2/turek-hron-fsi2.xml \
+	decks/turek-hron-fsi2/turek_hron_fsi2.csv

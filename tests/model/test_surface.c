@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "model/surface.h"
+
+#include <math.h>
+#include <string.h>
+
+/** Three points: the first two are prescribed, the last is moved by a mesh. */
+struct fixture {
+    struct model model;
+    struct model_surface definition;
+    struct model_mesh mesh;
+    double points[3][3];
+    int32_t nodes[2][4], mesh_of[3], node_of[3];
+    struct surface *surface;
+};
+
+static struct expression *make(const char *text)
+{
+    struct expression *expression = NULL;
+    char message[256];
+    const struct expression_scope scope = {0};
+    assert_int_equal(expression_create(&expression, text, &scope, message, sizeof message), 0);
+    return expression;
+}
+
+static void setup(struct fixture *f)
+{
+    memset(f, 0, sizeof *f);
+    memcpy(f->points, (double[3][3]){{0.5, 0.25, 0.0}, {1.5, -0.75, 0.0}, {2.25, 1.125, 0.0}},
+           sizeof f->points);
+    memcpy(f->nodes, (int32_t[2][4]){{0, 1, -1, -1}, {1, 2, -1, -1}}, sizeof f->nodes);
+    memcpy(f->mesh_of, (int32_t[3]){-1, -1, 0}, sizeof f->mesh_of);
+    memcpy(f->node_of, (int32_t[3]){-1, -1, 17}, sizeof f->node_of);
+    f->definition.name = (char *)"gate";
+    f->definition.built = (struct facets){2, 3, 2, f->points, f->nodes};
+    f->definition.built_mesh = f->mesh_of;
+    f->definition.built_node = f->node_of;
+    f->definition.motion.kind = MOTION_RIGID;
+    f->definition.motion.axis[2] = 1.0;
+    f->definition.motion.displacement[0] = make("0.2*t^2");
+    f->mesh.displacement[1] = make("0.01*x");
+    f->mesh.velocity[0] = make("-y");
+    f->model.dim = 2;
+    f->model.surfaces = &f->definition;
+    f->model.meshes = &f->mesh;
+    f->model.n_surfaces = f->model.n_meshes = 1;
+    assert_int_equal(surface_create(&f->surface, &f->model, 0, 0.5), 0);
+}
+
+static void teardown(struct fixture *f)
+{
+    surface_destroy(f->surface);
+    motion_reset(&f->definition.motion);
+    expression_destroy(f->mesh.displacement[1]);
+    expression_destroy(f->mesh.velocity[0]);
+}
+
+static void test_create(void **state)
+{
+    (void)state;
+    struct fixture f;
+    setup(&f);
+    const struct surface *s = f.surface;
+    assert_true(s->coupled && s->moving);
+    assert_int_equal(s->n_points, 3);
+    assert_int_equal(s->n_facets, 2);
+    assert_int_equal(s->mesh_node[2], 17);
+    assert_int_equal(s->nodes[1][1], 2);
+    assert_true(fabs(s->now.x[0][0] - 0.55) < 1e-15);
+    assert_true(fabs(s->now.v[0][0] - 0.2) < 1e-8);
+    assert_true(fabs(s->now.a[0][0] - 0.4) < 1e-5);
+    assert_true(fabs(s->level[0].x[2][1] - 1.125 - 0.0225) < 1e-15);
+    assert_true(s->level[1].v[2][0] == -1.125);
+    assert_string_equal(s->fields.name, "surface-gate");
+    const struct field *field = field_find(&s->fields, "Displacement");
+    assert_non_null(field);
+    double displacement[3][3];
+    assert_int_equal(field_read(&s->fields, field, displacement), 0);
+    assert_true(fabs(displacement[1][0] - 0.05) < 1e-15 && fabs(displacement[2][1] - 0.0225) < 1e-15);
+    teardown(&f);
+}
+
+static void test_levels(void **state)
+{
+    (void)state;
+    struct fixture f;
+    setup(&f);
+    struct surface *s = f.surface;
+    double first[3][3];
+    memcpy(first, s->level[1].x, sizeof first);
+    s->impulse[1][0] = 3.0;
+    surface_open(s, 0.7);
+    assert_true(s->impulse[1][0] == 0.0);
+    assert_memory_equal(s->level[0].x, first, sizeof first);
+    assert_true(fabs(s->level[1].x[1][0] - 1.5 - 0.2 * 0.49) < 1e-15);
+    assert_memory_equal(s->level[1].x[2], first[2], sizeof first[2]); // until the solid predicts
+    s->level[1].x[2][0] += 0.1;
+    surface_at(s, 0.5);
+    assert_memory_equal(s->now.x, s->level[0].x, sizeof first);
+    assert_memory_equal(s->now.a, s->level[0].a, sizeof first);
+    surface_at(s, 0.7);
+    assert_memory_equal(s->now.x, s->level[1].x, sizeof first);
+    surface_at(s, 0.55);
+    assert_true(fabs(s->now.x[2][0] - 2.25 - 0.025) < 1e-15);
+    assert_true(fabs(s->now.v[0][0] - 0.75 * s->level[0].v[0][0] - 0.25 * s->level[1].v[0][0]) < 1e-15);
+    s->rule = SURFACE_MEAN;
+    surface_open(s, 0.9);
+    surface_at(s, 0.8);
+    assert_memory_equal(s->now.x, s->level[0].x, sizeof first);
+    assert_true(fabs(s->now.v[2][0] - 0.5) < 1e-13); // 0.1 m in 0.2 s, the step before
+    assert_true(fabs(s->now.a[0][0] - 0.4) < 1e-6);
+    teardown(&f);
+}
+
+static void test_loads(void **state)
+{
+    (void)state;
+    struct fixture f;
+    setup(&f);
+    struct surface *s = f.surface;
+    s->load[0][1] = 2.0;
+    s->load[2][0] = -0.5;
+    s->moment[2] = 0.125;
+    double force[3], moment[3];
+    surface_total_load(s, (double[3]){0.05, 0.0, 0.0}, force, moment);
+    assert_true(force[0] == -0.5 && force[1] == 2.0);
+    assert_true(fabs(moment[2] - (0.125 + 0.5 * 2.0 + 1.1475 * 0.5)) < 1e-14);
+    surface_add_impulse(s, 0.1, SURFACE_LOAD_MEAN);
+    assert_true(fabs(s->impulse[0][1] - 0.2) < 1e-16);
+    s->load[0][1] = 4.0;
+    surface_add_impulse(s, 0.1, SURFACE_LOAD_END);
+    assert_true(fabs(s->impulse[0][1] - 0.5) < 1e-15);
+    assert_true(s->load_previous[0][1] == 4.0);
+    surface_clear_load(s);
+    assert_true(s->load[0][1] == 0.0 && s->moment[2] == 0.0);
+    teardown(&f);
+}
+
+static void test_added_mass(void **state)
+{
+    (void)state;
+    struct fixture f;
+    setup(&f);
+    struct surface *s = f.surface;
+    s->added_mass = memory_create(1, sizeof *s->added_mass);
+    s->n_added_mass = 1;
+    s->added_mass[0] = (struct added_mass_contact){{0, 1, -1, -1},
+                                                   {1, 2, -1, -1},
+                                                   {0.3, 0.7, 0.0, 0.0},
+                                                   {0.6, 0.4, 0.0, 0.0},
+                                                   {{1.0, 2.0, 0.0}, {0.0, 3.0, 0.0}, {0.0, 0.0, 0.0}}};
+    const double a[3][3] = {{9.0, 9.0, 9.0}, {1.0, 0.0, 0.0}, {0.0, 2.0, 0.0}};
+    double result[3][3];
+    surface_added_mass_apply(s, a, result); // T (0.6, 0.8) = (2.2, 2.4)
+    assert_true(fabs(result[0][0] - 0.66) < 1e-15 && fabs(result[0][1] - 0.72) < 1e-15);
+    assert_true(fabs(result[1][0] - 1.54) < 1e-15 && fabs(result[1][1] - 1.68) < 1e-15);
+    assert_true(result[2][0] == 0.0);
+    teardown(&f);
+}
+
+static void test_analytic(void **state)
+{
+    (void)state;
+    struct model model = {.dim = 2};
+    struct model_surface definition = {
+        .name = (char *)"circle", .kind = SURFACE_CYLINDER, .centre = {1.0, 2.0, 0.0}};
+    definition.motion.kind = MOTION_RIGID;
+    definition.motion.axis[2] = 1.0;
+    definition.motion.angular_velocity = expression_constant(2.0);
+    model.surfaces = &definition;
+    struct surface *s;
+    assert_int_equal(surface_create(&s, &model, 0, 0.0), 0);
+    assert_int_equal(s->n_points, 1);
+    assert_int_equal(s->n_facets, 0);
+    assert_true(s->moving && !s->coupled);
+    assert_true(s->now.x[0][1] == 2.0 && s->now.v[0][0] == -4.0);
+    surface_destroy(s);
+    motion_reset(&definition.motion);
+    surface_destroy(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_create),     cmocka_unit_test(test_levels),   cmocka_unit_test(test_loads),
+        cmocka_unit_test(test_added_mass), cmocka_unit_test(test_analytic),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

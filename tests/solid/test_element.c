@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// clang-format off
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+// clang-format on
+
+#include "base/error.h"
+#include "solid/element/element_list.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { DATA = 8 * (1 + 24 + 108) + 24 };
+
+static const struct solid_material rubber = {
+    .law = "saint-venant-kirchhoff", .density = 1100, .young = 1400, .poisson = 0.4};
+
+static struct constitutive law_of(const struct solid_material *material)
+{
+    struct constitutive law = {.law = constitutive_find(material->law)};
+    law.law->prepare(material, law.parameters);
+    return law;
+}
+
+/** A distorted element of any type: corners of the unit cell (simplex) moved by fixed awkward amounts. */
+static void distorted(const struct element_kernel *kernel, double X[8][3])
+{
+    static const double corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    static const int tet[4] = {0, 1, 3, 4}, tri[3] = {0, 1, 3};
+    const int dim = element_dim(kernel->type);
+    for (int a = 0; a < element_nodes(kernel->type); a++) {
+        const int c = kernel->type == ELEMENT_TET4 ? tet[a] : kernel->type == ELEMENT_TRI3 ? tri[a] : a;
+        for (int i = 0; i < 3; i++)
+            X[a][i] = i < dim ? 0.37 * corner[c][i] + 0.06 * sin(7.0 * a + 3.1 * i + 0.4) : 0;
+    }
+}
+
+static void awkward_displacement(const struct element_kernel *kernel, double *d)
+{
+    for (int p = 0; p < element_nodes(kernel->type) * element_dim(kernel->type); p++)
+        d[p] = 0.03 * cos(5.3 * p + 0.7);
+}
+
+/** Force = derivative of the energy, stiffness = derivative of the force, symmetric. */
+static void test_derivatives(void **state)
+{
+    (void)state;
+    const struct constitutive law = law_of(&rubber);
+    for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
+        const struct element_kernel *kernel = element_list[k];
+        const int dof = element_nodes(kernel->type) * element_dim(kernel->type);
+        double X[8][3], data[DATA], d[24], f[24], K[576], plus[24], minus[24];
+        const double h = 1e-6;
+        assert_true(kernel->data_size <= DATA);
+        distorted(kernel, X);
+        awkward_displacement(kernel, d);
+        assert_int_equal(kernel->prepare((const double(*)[3])X, &law, data), 0);
+        assert_int_equal(kernel->forces(data, &law, d, f, K), 0);
+        assert_int_equal(kernel->forces(data, &law, d, plus, NULL), 0);
+        assert_memory_equal(f, plus, (size_t)dof * sizeof *f);
+        for (int q = 0; q < dof; q++) {
+            const double value = d[q];
+            d[q] = value + h;
+            const double energy_plus = kernel->energy(data, &law, d, NULL, NULL);
+            kernel->forces(data, &law, d, plus, NULL);
+            d[q] = value - h;
+            const double energy_minus = kernel->energy(data, &law, d, NULL, NULL);
+            kernel->forces(data, &law, d, minus, NULL);
+            d[q] = value;
+            assert_true(fabs(f[q] - (energy_plus - energy_minus) / (2 * h)) < 1e-5);
+            for (int p = 0; p < dof; p++) {
+                assert_true(fabs(K[p * dof + q] - (plus[p] - minus[p]) / (2 * h)) < 1e-4);
+                assert_true(fabs(K[p * dof + q] - K[q * dof + p]) < 1e-10);
+            }
+        }
+    }
+}
+
+/** A rigid rotation and translation gives neither strain nor force. */
+static void test_rigid_rotation(void **state)
+{
+    (void)state;
+    const struct constitutive law = law_of(&rubber);
+    for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
+        const struct element_kernel *kernel = element_list[k];
+        const int dim = element_dim(kernel->type);
+        const double c = cos(2.1), s = sin(2.1);
+        double X[8][3], data[DATA], d[24], f[24], stress[6], volume;
+        distorted(kernel, X);
+        for (int a = 0; a < element_nodes(kernel->type); a++) {
+            const double x[3] = {c * X[a][0] - s * X[a][1] + 0.3, s * X[a][0] + c * X[a][1] - 1.7,
+                                 X[a][2] + 0.9};
+            for (int i = 0; i < dim; i++)
+                d[a * dim + i] = x[i] - X[a][i];
+        }
+        assert_int_equal(kernel->prepare((const double(*)[3])X, &law, data), 0);
+        assert_int_equal(kernel->forces(data, &law, d, f, NULL), 0);
+        for (int p = 0; p < element_nodes(kernel->type) * dim; p++)
+            assert_true(fabs(f[p]) < 1e-11);
+        assert_true(fabs(kernel->energy(data, &law, d, stress, &volume)) < 1e-20);
+        assert_true(fabs(stress[0]) < 1e-10 && fabs(stress[3]) < 1e-10 && volume > 0);
+    }
+}
+
+/** The stress of a homogeneous deformation by hand: stretch g along x and shear; all formulations agree in
+ * the patch. */
+static void test_homogeneous_deformation(void **state)
+{
+    (void)state;
+    const struct constitutive law = law_of(&rubber);
+    const double lambda = 2000, mu = 500; /* of E = 1400, nu = 0.4 */
+    const double F[3][3] = {{1.13, 0.21, 0}, {0, 0.94, 0}, {0, 0, 1}};
+    const double exx = 0.5 * (1.13 * 1.13 - 1), eyy = 0.5 * (0.21 * 0.21 + 0.94 * 0.94 - 1),
+                 exy = 0.5 * 1.13 * 0.21;
+    const double sxx = lambda * (exx + eyy) + 2 * mu * exx, syy = lambda * (exx + eyy) + 2 * mu * eyy;
+    const double sxy = 2 * mu * exy, szz = lambda * (exx + eyy), J = 1.13 * 0.94;
+    const double expected[6] = {(1.13 * 1.13 * sxx + 2 * 1.13 * 0.21 * sxy + 0.21 * 0.21 * syy) / J,
+                                0.94 * 0.94 * syy / J,
+                                szz / J,
+                                0.94 * (1.13 * sxy + 0.21 * syy) / J,
+                                0,
+                                0};
+    const double density = 0.5 * (sxx * exx + syy * eyy + 2 * sxy * exy);
+    for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
+        const struct element_kernel *kernel = element_list[k];
+        const int dim = element_dim(kernel->type);
+        double X[8][3], data[DATA], d[24], stress[6], volume;
+        distorted(kernel, X);
+        for (int a = 0; a < element_nodes(kernel->type); a++)
+            for (int i = 0; i < dim; i++)
+                d[a * dim + i] = F[i][0] * X[a][0] + F[i][1] * X[a][1] + F[i][2] * X[a][2] - X[a][i];
+        assert_int_equal(kernel->prepare((const double(*)[3])X, &law, data), 0);
+        const double energy = kernel->energy(data, &law, d, stress, &volume);
+        assert_true(fabs(energy - density * volume) < 1e-12);
+        for (int i = 0; i < 6; i++)
+            assert_true(fabs(stress[i] - expected[i]) < 1e-10);
+    }
+}
+
+/** Pure bending of a rectangle a x b: u_x = k x y needs the energy E/(1 - nu^2) b^3/12 a k^2/2; full
+ * integration locks. */
+static void test_bending_of_one_element(void **state)
+{
+    (void)state;
+    const struct constitutive law = law_of(&rubber);
+    const double a = 0.8, b = 0.1, k = 1e-4;
+    const double X[4][3] = {{-a / 2, -b / 2, 0}, {a / 2, -b / 2, 0}, {a / 2, b / 2, 0}, {-a / 2, b / 2, 0}};
+    const double exact = 1400 / (1 - 0.16) * b * b * b / 12 * a * k * k / 2;
+    double data[DATA], d[8];
+    for (int n = 0; n < 4; n++) {
+        d[2 * n] = k * X[n][0] * X[n][1];
+        d[2 * n + 1] = 0;
+    }
+    assert_int_equal(quad4_eas.prepare(X, &law, data), 0);
+    assert_true(fabs(quad4_eas.energy(data, &law, d, NULL, NULL) / exact - 1) < 1e-6);
+    assert_int_equal(quad4_full.prepare(X, &law, data), 0);
+    assert_true(quad4_full.energy(data, &law, d, NULL, NULL) / exact > 10);
+}
+
+static void test_inverted_and_degenerate(void **state)
+{
+    (void)state;
+    const struct constitutive law = law_of(&rubber);
+    for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
+        const struct element_kernel *kernel = element_list[k];
+        const int dim = element_dim(kernel->type), nodes = element_nodes(kernel->type);
+        double X[8][3], data[DATA], d[24] = {0}, f[24];
+        distorted(kernel, X);
+        assert_int_equal(kernel->prepare((const double(*)[3])X, &law, data), 0);
+        for (int a = 0; a < nodes; a++)
+            d[a * dim] = -2 * X[a][0]; /* mirrored */
+        assert_int_equal(kernel->forces(data, &law, d, f, NULL), STATUS_NUMERICAL);
+        for (int a = 0; a < nodes; a++)
+            X[a][0] = -X[a][0];
+        assert_int_equal(kernel->prepare((const double(*)[3])X, &law, data), STATUS_DECK);
+    }
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    const char *reason = NULL;
+    assert_ptr_equal(element_kernel_find(ELEMENT_QUAD4, SOLID_EAS, &reason), &quad4_eas);
+    assert_null(element_kernel_find(ELEMENT_TET4, SOLID_F_BAR, &reason));
+    assert_non_null(strstr(reason, "constant strain"));
+    assert_null(element_kernel_find(ELEMENT_LINE2, SOLID_FULL, &reason));
+    assert_non_null(strstr(reason, "quad4"));
+    const struct solid_material soft = {.law = "saint-venant-kirchhoff", .young = 1, .poisson = 0.5};
+    assert_non_null(strstr(constitutive_find(soft.law)->check(&soft), "Poisson"));
+    assert_null(constitutive_find("hooke"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_derivatives),
+        cmocka_unit_test(test_rigid_rotation),
+        cmocka_unit_test(test_homogeneous_deformation),
+        cmocka_unit_test(test_bending_of_one_element),
+        cmocka_unit_test(test_inverted_and_degenerate),
+        cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,4 @@
+# Files of tests/system.
+dist_check_SCRIPTS += tests/system/test_deckgen.sh tests/system/test_tools.sh tests/system/test_exact.sh
+EXTRA_DIST += tests/system/test_tools.py tests/system/test_exact.py
+TESTS += tests/system/test_deckgen.sh tests/system/test_tools.sh tests/system/test_exact.sh

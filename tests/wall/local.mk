@@ -1,0 +1,16 @@
+# Unit tests of src/wall.
+check_PROGRAMS += tests/wall/test_facet_shares
+tests_wall_test_facet_shares_SOURCES = tests/wall/test_facet_shares.c
+tests_wall_test_facet_shares_LDADD = $(test_libs)
+TESTS += tests/wall/test_facet_shares
+EXTRA_DIST += tests/wall/facet_shares_2d.csv tests/wall/facet_shares_3d.csv
+
+check_PROGRAMS += tests/wall/test_sliding_corners
+tests_wall_test_sliding_corners_SOURCES = tests/wall/test_sliding_corners.c tests/wall/wall_scene.h
+tests_wall_test_sliding_corners_LDADD = $(test_libs)
+TESTS += tests/wall/test_sliding_corners
+
+check_PROGRAMS += tests/wall/test_sliding_particles
+tests_wall_test_sliding_particles_SOURCES = tests/wall/test_sliding_particles.c tests/wall/wall_scene.h
+tests_wall_test_sliding_particles_LDADD = $(test_libs)
+TESTS += tests/wall/test_sliding_particles

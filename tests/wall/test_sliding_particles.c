@@ -1,0 +1,596 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Values, forces and loads of sliding boundary particles.
+#include "wall_scene.h"
+
+#include "base/error.h"
+#include "wall/facet_shares.h"
+
+#include <omp.h>
+
+#define PI 3.14159265358979323846
+
+static double noise(uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (double)*seed / 4294967296.0 - 0.5;
+}
+
+/** Awkward values on every particle, the same for the same place. */
+static void fill_values(struct scene *scene)
+{
+    struct particles *p = scene->particles;
+    for (size_t i = 0; i < p->n; ++i) {
+        uint32_t seed = (uint32_t)lround(1e3 * (p->x[0][i] + 31.0 * p->x[1][i] + 977.0 * p->x[2][i]));
+        for (int k = 0; k < 4; ++k)
+            noise(&seed);
+        p->p[i] = 3.0 * noise(&seed) + 2.0;
+        p->rho[i] = 1.0 + 0.05 * noise(&seed);
+        for (int k = 0; k < scene->model.dim; ++k)
+            p->u[k][i] = noise(&seed);
+    }
+    for (int k = 0; k < scene->model.dim; ++k)
+        scene->view.body_force[k] = 0.3 - 0.7 * k;
+}
+
+/** Forces by eq. 40 on all near particles, reactions, and loads; returns the total force on the fluid. */
+static void forces(struct scene *scene, double total[3])
+{
+    struct boundary *b = scene->boundary;
+    const struct particles *p = scene->particles;
+    assert_int_equal(b->type->close(b, &scene->view), 0);
+    total[0] = total[1] = total[2] = 0.0;
+    for (size_t near = 0; near < b->n_near; ++near) {
+        struct wall_neighbours *w = &scene->neighbours;
+        assert_int_equal(b->type->gather(b, &scene->view, near, w), 0);
+        uint32_t i = b->near[near];
+        double *force[3], volume = p->m[i] / p->rho[i];
+        for (int k = 0; k < 3; ++k)
+            force[k] = memory_create(w->n, sizeof(double));
+        for (size_t n = 0; n < w->n; ++n) {
+            double mean = (w->rho[n] * p->p[i] + p->rho[i] * w->p[n]) / (w->rho[n] + p->rho[i]);
+            double v2 = volume * volume + w->volume[n] * w->volume[n];
+            for (int k = 0; k < 3; ++k) {
+                force[k][n] =
+                    v2 * w->dw[n] / w->r[n] *
+                    (-w->share_pressure[n] * mean * w->dx[k][n] +
+                     w->share_viscous[n] * scene->view.viscosity * (p->u[k][i] - w->u_viscous[k][n]));
+                total[k] += force[k][n];
+            }
+        }
+        b->type->react(b, near, w, force);
+        for (int k = 0; k < 3; ++k)
+            memory_free(force[k]);
+    }
+    surface_clear_load(scene->surface);
+    b->type->load(b, &scene->view);
+}
+
+static void lattice(struct scene *scene, double low_x, double low_y, double low_z, int nx, int ny, int nz,
+                    double jitter)
+{
+    uint32_t seed = 7;
+    for (int k = 0; k < nz; ++k)
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i)
+                scene_add(scene, low_x + i + 0.5 + jitter * noise(&seed),
+                          low_y + j + 0.5 + jitter * noise(&seed),
+                          scene->model.dim > 2 ? low_z + k + 0.5 + jitter * noise(&seed) : 0.0);
+}
+
+/** A flat wall below y = 0 in facets of @p size. */
+static void floor_2d(struct scene *scene, double size)
+{
+    double points[200][3];
+    size_t n = 0;
+    for (double x = 30.0; x > -30.0 - 0.5 * size; x -= size)
+        memcpy(points[n++], (double[3]){x, 0.0, 0.0}, sizeof points[0]);
+    scene_chain(scene, n, (const double(*)[3])points, false);
+}
+
+static int same(const double *a, const double *b, size_t n)
+{
+    return !memcmp(a, b, n * sizeof *a);
+}
+
+static void test_flat_is_paper(void **state)
+{
+    (void)state;
+    struct scene scene[2];
+    double total[2][3];
+    for (int rule = 0; rule < 2; ++rule) {
+        scene_start(&scene[rule], 2, -40.0, 40.0, false);
+        lattice(&scene[rule], -8.0, 0.0, 0.0, 16, 8, 1, 0.2);
+        floor_2d(&scene[rule], 1.7);
+        scene_build(&scene[rule], rule ? CORNERS_PAPER : CORNERS_SHARES);
+        fill_values(&scene[rule]);
+        forces(&scene[rule], total[rule]);
+    }
+    // the published rule lists particles a little further away, whose blocks are out of reach
+    struct boundary *a = scene[0].boundary, *b = scene[1].boundary;
+    size_t compared = 0;
+    for (size_t m = 0, n = 0; m < a->n_near; ++m) {
+        while (b->near[n] != a->near[m])
+            ++n;
+        struct wall_neighbours *v = &scene[0].neighbours, *w = &scene[1].neighbours;
+        assert_int_equal(a->type->gather(a, &scene[0].view, m, v), 0);
+        assert_int_equal(b->type->gather(b, &scene[1].view, n, w), 0);
+        assert_int_equal(v->n, w->n);
+        assert_true(same(&a->kernel_sum[m], &b->kernel_sum[n], 1));
+        assert_true(same(v->p, w->p, v->n) && same(v->rho, w->rho, v->n) && same(v->w, w->w, v->n));
+        assert_true(same(v->share_viscous, w->share_viscous, v->n));
+        for (int k = 0; k < 3; ++k)
+            assert_true(same(v->dx[k], w->dx[k], v->n) && same(v->u_viscous[k], w->u_viscous[k], v->n));
+        compared += v->n;
+    }
+    assert_true(compared > 200);
+    assert_true(same(total[0], total[1], 3));
+    for (int rule = 0; rule < 2; ++rule)
+        scene_end(&scene[rule]);
+}
+
+/** A linear pressure in equilibrium and a linear velocity are continued exactly behind a flat wall. */
+static void test_linear_fields(void **state)
+{
+    (void)state;
+    struct scene scene;
+    scene_start(&scene, 2, -40.0, 40.0, false);
+    lattice(&scene, -8.0, 0.0, 0.0, 16, 8, 1, 0.2);
+    floor_2d(&scene, 4.3);
+    scene.view.body_force[0] = 0.31;
+    scene.view.body_force[1] = -0.73;
+    scene_build(&scene, CORNERS_SHARES);
+    struct particles *p = scene.particles;
+    for (size_t i = 0; i < p->n; ++i) {
+        p->p[i] = 5.0 + 0.31 * p->x[0][i] - 0.73 * p->x[1][i];
+        p->u[0][i] = 1.7 * p->x[1][i];
+    }
+    assert_int_equal(scene.boundary->type->close(scene.boundary, &scene.view), 0);
+    for (size_t near = 0; near < scene.boundary->n_near; ++near) {
+        struct wall_neighbours *w = &scene.neighbours;
+        uint32_t i = scene.boundary->near[near];
+        assert_int_equal(scene.boundary->type->gather(scene.boundary, &scene.view, near, w), 0);
+        for (size_t n = 0; n < w->n; ++n) {
+            double x = p->x[0][i] - w->dx[0][n], y = p->x[1][i] - w->dx[1][n];
+            assert_true(y < 0.0);
+            assert_true(fabs(w->p[n] - (5.0 + 0.31 * x - 0.73 * y)) < 1e-12);
+            assert_true(fabs(w->rho[n] - (1.0 + w->p[n] / 100.0)) < 1e-14);
+            assert_true(fabs(w->volume[n] * w->rho[n] - 1.0) < 1e-14);
+            assert_true(fabs(w->u_viscous[0][n] - 1.7 * y) < 1e-11);
+            assert_true(w->u[0][n] == 0.0 && w->normal[1][n] == 1.0);
+        }
+    }
+    // without the pressure gradient (figure 8 of the paper) all virtual particles of a contact have the mean
+    // pressure
+    scene.wall.pressure_gradient = false;
+    boundary_destroy(scene.boundary);
+    const struct boundary_type *const types[] = {&boundary_sliding_particles};
+    assert_int_equal(boundary_create(&scene.boundary, &scene.model, 0, &scene.surface, &scene.view, types, 1),
+                     0);
+    scene_list(&scene);
+    assert_int_equal(scene.boundary->type->close(scene.boundary, &scene.view), 0);
+    assert_int_equal(scene.boundary->type->gather(scene.boundary, &scene.view, 0, &scene.neighbours), 0);
+    assert_true(scene.neighbours.n > 3);
+    for (size_t n = 1; n < scene.neighbours.n; ++n)
+        assert_true(scene.neighbours.p[n] == scene.neighbours.p[0]);
+    scene_end(&scene);
+}
+
+/** A step with a concave and a convex corner, in facets of @p size. */
+static void step_2d(struct scene *scene, double size)
+{
+    static const double corner[4][2] = {{30.0, 3.0}, {0.0, 3.0}, {0.0, 0.0}, {-30.0, 0.0}};
+    double points[400][3];
+    size_t n = 0;
+    for (int c = 0; c < 3; ++c) {
+        double dx = corner[c + 1][0] - corner[c][0], dy = corner[c + 1][1] - corner[c][1];
+        int parts = (int)ceil((fabs(dx) + fabs(dy)) / size - 1e-9);
+        for (int i = 0; i < parts + (c == 2); ++i)
+            memcpy(points[n++],
+                   (double[3]){corner[c][0] + dx * i / parts, corner[c][1] + dy * i / parts, 0.0},
+                   sizeof points[0]);
+    }
+    scene_chain(scene, n, (const double(*)[3])points, false);
+}
+
+static void step_scene(struct scene *scene, double size, enum corners corners)
+{
+    scene_start(scene, 2, -40.0, 40.0, false);
+    uint32_t seed = 3;
+    for (int j = 0; j < 10; ++j)
+        for (int i = -10; i < 10; ++i)
+            if (i < 0 || j >= 3)
+                scene_add(scene, i + 0.5 + 0.3 * noise(&seed), j + 0.5 + 0.3 * noise(&seed), 0.0);
+    step_2d(scene, size);
+    scene_build(scene, corners);
+    fill_values(scene);
+}
+
+static void test_conservation(void **state)
+{
+    (void)state;
+    for (int rule = 0; rule < 2; ++rule) {
+        struct scene scene;
+        double total[3], force[3], moment[3];
+        step_scene(&scene, 1.3, rule ? CORNERS_PAPER : CORNERS_SHARES);
+        forces(&scene, total);
+        surface_total_load(scene.surface, scene_zero, force, moment);
+        assert_true(fabs(total[0]) + fabs(total[1]) > 1.0);
+        for (int k = 0; k < 3; ++k)
+            assert_true(fabs(total[k] + force[k]) < 1e-12);
+        scene_end(&scene);
+    }
+}
+
+static void test_subdivision(void **state)
+{
+    (void)state;
+    static const double sizes[] = {100.0, 2.9, 0.53};
+    struct scene scene;
+    double total[3][3], sum[3];
+    for (int s = 0; s < 3; ++s) {
+        step_scene(&scene, sizes[s], CORNERS_SHARES);
+        forces(&scene, total[s]);
+        sum[s] = 0.0;
+        for (size_t near = 0; near < scene.boundary->n_near; ++near)
+            sum[s] += scene.boundary->kernel_sum[near] * (1.0 + 0.01 * (double)near);
+        scene_end(&scene);
+    }
+    for (int s = 1; s < 3; ++s) {
+        assert_true(fabs(sum[s] - sum[0]) < 1e-10 * sum[0]);
+        for (int k = 0; k < 2; ++k)
+            assert_true(fabs(total[s][k] - total[0][k]) < 1e-9);
+    }
+}
+
+static void test_threads(void **state)
+{
+    (void)state;
+    struct scene scene[2];
+    const int before = omp_get_max_threads();
+    for (int t = 0; t < 2; ++t) {
+        double total[3];
+        omp_set_num_threads(t ? 2 : 1);
+        step_scene(&scene[t], 0.9, CORNERS_SHARES);
+        forces(&scene[t], total);
+        forces(&scene[t], total); // twice gives the same
+    }
+    omp_set_num_threads(before);
+    assert_int_equal(scene[0].boundary->n_near, scene[1].boundary->n_near);
+    assert_true(
+        same(scene[0].boundary->kernel_sum, scene[1].boundary->kernel_sum, scene[0].boundary->n_near));
+    assert_true(same(scene[0].surface->load[0], scene[1].surface->load[0], 3 * scene[0].surface->n_points));
+    scene_end(&scene[0]);
+    scene_end(&scene[1]);
+}
+
+/** A circle as an analytic surface and as a polygon of 192 sides. */
+static void test_circle(void **state)
+{
+    (void)state;
+    struct scene scene[2];
+    const double radius = 10.0;
+    for (int polygon = 0; polygon < 2; ++polygon) {
+        struct scene *s = &scene[polygon];
+        scene_start(s, 2, -20.0, 20.0, false);
+        for (int j = -10; j < 10; ++j)
+            for (int i = -10; i < 10; ++i)
+                if (hypot(i + 0.5, j + 0.5) < radius - 0.3)
+                    scene_add(s, i + 0.5, j + 0.5, 0.0);
+        if (polygon) {
+            double points[192][3];
+            for (int k = 0; k < 192; ++k) { // clockwise: the solid, outside, lies to the left
+                double angle = -2.0 * PI * k / 192.0, r = radius / cos(PI / 192.0);
+                memcpy(points[k], (double[3]){r * cos(angle), r * sin(angle), 0.0}, sizeof points[k]);
+            }
+            scene_chain(s, 192, (const double(*)[3])points, true);
+        } else {
+            s->surface_definition.kind = SURFACE_CYLINDER;
+            s->surface_definition.radius = radius;
+            s->surface_definition.fluid_inside = true;
+        }
+        scene_build(s, CORNERS_SHARES);
+    }
+    // the analytic circle carries one flat block; the polygon the curved wall: they differ by the curvature,
+    // dx / (8 R)
+    double worst = 0.0;
+    size_t m = 0;
+    for (size_t n = 0; n < scene[0].boundary->n_near; ++n) {
+        while (scene[1].boundary->near[m] != scene[0].boundary->near[n])
+            ++m;
+        worst = fmax(worst, fabs(scene[0].boundary->kernel_sum[n] - scene[1].boundary->kernel_sum[m]));
+    }
+    print_message("circle: %g\n", worst);
+    assert_true(worst > 1e-4 && worst < 0.03);
+    scene_end(&scene[0]);
+    scene_end(&scene[1]);
+}
+
+/** A rotating circle: velocity and acceleration at the contact, force and moment. */
+static void test_rotating_circle(void **state)
+{
+    (void)state;
+    struct scene scene;
+    double total[3], force[3], moment[3];
+    scene_start(&scene, 2, -20.0, 20.0, false);
+    lattice(&scene, -3.0, 5.3, 0.0, 6, 4, 1, 0.0);
+    struct model_surface *definition = &scene.surface_definition;
+    definition->kind = SURFACE_CYLINDER;
+    definition->radius = 5.0;
+    definition->motion.kind = MOTION_RIGID;
+    definition->motion.axis[2] = 1.0;
+    definition->motion.angular_velocity = expression_constant(-0.7);
+    scene_build(&scene, CORNERS_SHARES);
+    assert_true(scene.boundary->moving);
+    fill_values(&scene);
+    forces(&scene, total);
+    for (size_t near = 0; near < scene.boundary->n_near; ++near) {
+        struct wall_neighbours *w = &scene.neighbours;
+        assert_int_equal(scene.boundary->type->gather(scene.boundary, &scene.view, near, w), 0);
+        uint32_t i = scene.boundary->near[near];
+        double x = scene.particles->x[0][i], y = scene.particles->x[1][i], r = hypot(x, y);
+        assert_true(fabs(w->u[0][0] - 0.7 * 5.0 * y / r) < 1e-13 &&
+                    fabs(w->u[1][0] + 0.7 * 5.0 * x / r) < 1e-13);
+        assert_true(fabs(w->a[0][0] + 0.49 * 5.0 * x / r) < 1e-13);
+        assert_true(fabs(w->normal[0][0] - x / r) < 1e-13);
+    }
+    surface_total_load(scene.surface, scene_zero, force, moment);
+    for (int k = 0; k < 2; ++k)
+        assert_true(fabs(force[k] + total[k]) < 1e-12);
+    assert_true(fabs(moment[2]) > 1e-3);
+    motion_reset(&definition->motion);
+    scene_end(&scene);
+}
+
+/** One quad per plate and periodic sides: every particle of a layer sees the same wall. */
+static void test_periodic_plate(void **state)
+{
+    (void)state;
+    static const double points[4][3] = {
+        {-5.0, -5.0, -3.0}, {5.0, -5.0, -3.0}, {5.0, 5.0, -3.0}, {-5.0, 5.0, -3.0}};
+    static const int32_t nodes[1][4] = {{0, 1, 2, 3}};
+    struct facet_shares shares;
+    assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0), 0);
+    for (int rule = 0; rule < 2; ++rule) {
+        struct scene scene;
+        scene_start(&scene, 3, -5.0, 5.0, true);
+        lattice(&scene, -5.0, -5.0, -3.0, 10, 10, 4, 0.0);
+        scene_facets(&scene, 4, points, 1, nodes);
+        scene_build(&scene, rule ? CORNERS_PAPER : CORNERS_SHARES);
+        size_t n[2] = {0, 0};
+        for (size_t near = 0; near < scene.boundary->n_near; ++near) {
+            double height = scene.particles->x[2][scene.boundary->near[near]] + 3.0;
+            if (height > 2.0 || height < 0.0)
+                continue;
+            int layer = (int)height;
+            double sums[SHARES];
+            facet_shares_block(&shares, height, sums);
+            assert_true(fabs(scene.boundary->kernel_sum[near] - sums[SHARE_DENSITY]) < 1e-12);
+            ++n[layer];
+        }
+        assert_int_equal(n[0], 100);
+        assert_int_equal(n[1], 100);
+        scene_end(&scene);
+    }
+    facet_shares_reset(&shares);
+}
+
+/** Loads change with the surface's acceleration as the tensors say. */
+static void test_added_mass(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct model_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    scene_start(&scene, 2, -40.0, 40.0, false);
+    scene.view.sound_speed = 1e5; // the derivative leaves out the density of the virtual particles
+    uint32_t seed = 3;
+    for (int j = 0; j < 10; ++j)
+        for (int i = -10; i < 10; ++i)
+            if (i < 0 || j >= 3)
+                scene_add(&scene, i + 0.5 + 0.3 * noise(&seed), j + 0.5 + 0.3 * noise(&seed), 0.0);
+    step_2d(&scene, 2.3);
+    for (size_t i = 0; i < scene.surface_definition.built.n_points; ++i)
+        scene.surface_definition.built_mesh[i] = 0;
+    scene.model.meshes = &mesh;
+    scene.model.n_meshes = 1;
+    scene_build(&scene, CORNERS_SHARES);
+    assert_true(scene.boundary->coupled);
+    fill_values(&scene);
+    const size_t n = scene.surface->n_points;
+    double(*direction)[3] = memory_create(n, sizeof *direction), (*load)[3] = memory_create(n, sizeof *load),
+    (*product)[3] = memory_create(n, sizeof *product), total[3];
+    for (size_t i = 0; i < n; ++i)
+        for (int k = 0; k < 2; ++k)
+            direction[i][k] = noise(&seed);
+    forces(&scene, total);
+    assert_int_equal(scene.boundary->type->added_mass(scene.boundary, &scene.view), 0);
+    surface_added_mass_apply(scene.surface, (const double(*)[3])direction, product);
+    memcpy(load, scene.surface->load, n * sizeof *load);
+    memcpy(scene.surface->level[1].a, direction, n * sizeof *direction);
+    memcpy(scene.surface->level[0].a, direction, n * sizeof *direction);
+    assert_int_equal(boundary_prepare(scene.boundary, &scene.view), 0);
+    forces(&scene, total);
+    double largest = 0.0, off = 0.0, energy = 0.0;
+    for (size_t i = 0; i < n; ++i)
+        for (int k = 0; k < 3; ++k) {
+            largest = fmax(largest, fabs(product[i][k]));
+            off = fmax(off, fabs(scene.surface->load[i][k] - load[i][k] + product[i][k]));
+            energy += direction[i][k] * product[i][k];
+        }
+    assert_true(largest > 0.1);
+    assert_true(off < 1e-7 * largest);
+    assert_true(energy > 0.0);
+    memory_free(direction);
+    memory_free(load);
+    memory_free(product);
+    scene_end(&scene);
+}
+
+/** A closed cube with the fluid inside. */
+static void box_3d(struct scene *scene, double half, double warp)
+{
+    double points[8][3];
+    static const int32_t nodes[6][4] = {{1, 3, 2, 0}, {6, 7, 5, 4}, {4, 5, 1, 0},
+                                        {3, 7, 6, 2}, {2, 6, 4, 0}, {5, 7, 3, 1}};
+    for (int c = 0; c < 8; ++c)
+        for (int k = 0; k < 3; ++k)
+            points[c][k] = (c >> k & 1 ? half : -half) * (c == 5 ? 1.0 + warp : 1.0);
+    scene_facets(scene, 8, (const double(*)[3])points, 6, nodes);
+}
+
+static void test_put_back(void **state)
+{
+    (void)state;
+    struct scene scene;
+    scene_start(&scene, 3, -20.0, 20.0, false);
+    scene_add(&scene, 0.7, -5.04, 1.3);  // behind the side y = -5
+    scene_add(&scene, 4.93, 4.96, -5.1); // beside an edge region, behind z = -5
+    scene_add(&scene, 4.9, 4.9, 4.9);    // in the fluid, in a corner
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            scene.particles->u[k][i] = i == 1 ? 0.4 : -0.3 + 0.05 * k;
+    box_3d(&scene, 5.0, 0.0);
+    scene_build(&scene, CORNERS_SHARES);
+    // until it is put back, a penetrated particle sees the wall as if it were on it
+    for (size_t near = 0; near < 3; ++near)
+        assert_true(scene.boundary->kernel_sum[near] > 0.3 && scene.boundary->kernel_sum[near] < 1.0);
+    double before[3] = {0.0, 0.0, 0.0}, change[3] = {0.0, 0.0, 0.0}, force[3], moment[3];
+    struct particles *p = scene.particles;
+    for (size_t i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            before[k] += p->u[k][i];
+    assert_int_equal(scene.boundary->type->put_back(scene.boundary, &scene.view, p), 0);
+    assert_int_equal(scene.boundary->put_back_count, 2);
+    for (size_t i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k)
+            change[k] += p->u[k][i];
+        if (fabs(p->x[0][i] - 0.7) < 1e-12) {
+            assert_true(fabs(p->x[1][i] + 4.9) < 1e-12 && fabs(p->x[2][i] - 1.3) < 1e-12);
+            assert_true(fabs(p->u[1][i]) < 1e-15 && fabs(p->u[0][i] + 0.3) < 1e-15);
+        } else if (p->x[2][i] < 0.0) {
+            assert_true(fabs(p->x[2][i] + 4.9) < 1e-12);
+            assert_true(p->u[2][i] == 0.4); // it was leaving already
+        }
+    }
+    surface_clear_load(scene.surface);
+    scene.boundary->type->load(scene.boundary, &scene.view);
+    surface_total_load(scene.surface, scene_zero, force, moment);
+    assert_true(change[1] - before[1] > 0.2);
+    for (int k = 0; k < 3; ++k)
+        assert_true(fabs(force[k] * scene.view.dt + change[k] - before[k]) < 1e-14);
+    assert_int_equal(boundary_prepare(scene.boundary, &scene.view), 0);
+    scene_end(&scene);
+}
+
+/** A warped quad is cut into four; weights still add up and loads still balance. */
+static void test_warped(void **state)
+{
+    (void)state;
+    struct scene scene[2];
+    for (int warped = 0; warped < 2; ++warped) {
+        double total[3], force[3], moment[3];
+        scene_start(&scene[warped], 3, -20.0, 20.0, false);
+        lattice(&scene[warped], -5.0, -5.0, -5.0, 10, 10, 10, 0.2);
+        box_3d(&scene[warped], 5.0, warped ? 0.012 : 0.0);
+        scene_build(&scene[warped], CORNERS_SHARES);
+        fill_values(&scene[warped]);
+        forces(&scene[warped], total);
+        surface_total_load(scene[warped].surface, scene_zero, force, moment);
+        for (int k = 0; k < 3; ++k)
+            assert_true(fabs(force[k] + total[k]) < 1e-11);
+    }
+    struct boundary *a = scene[0].boundary, *b = scene[1].boundary;
+    double worst = 0.0;
+    for (size_t m = 0, n = 0; m < a->n_near; ++m) {
+        for (n = 0; n < b->n_near && b->near[n] != a->near[m]; ++n)
+            ;
+        if (n < b->n_near)
+            worst = fmax(worst, fabs(a->kernel_sum[m] - b->kernel_sum[n]));
+    }
+    assert_true(worst > 1e-4 && worst < 0.1);
+    scene_end(&scene[0]);
+    scene_end(&scene[1]);
+}
+
+/** Planes in 1-D: the wall completes the kernel sum. */
+static void test_one_dimension(void **state)
+{
+    (void)state;
+    struct scene scene;
+    scene_start(&scene, 1, -20.0, 20.0, false);
+    for (int i = 0; i < 9; ++i)
+        scene_add(&scene, i + 0.5, 0.0, 0.0);
+    scene.surface_definition.kind = SURFACE_PLANE;
+    scene.surface_definition.axis[0] = 2.0;
+    scene_build(&scene, CORNERS_SHARES);
+    assert_int_equal(scene.boundary->n_near, 3);
+    for (size_t near = 0; near < 3; ++near) {
+        double rho = 0.0, g[3] = {0.0, 0.0, 0.0};
+        scene_fluid_sums(&scene, scene.boundary->near[near], &rho, g);
+        scene_wall_sums(&scene, near, &rho, g);
+        assert_true(fabs(rho - 1.0) < 1e-12 && fabs(g[0]) < 1e-12);
+    }
+    scene_end(&scene);
+}
+
+static void test_check(void **state)
+{
+    (void)state;
+    struct model model;
+    struct model_surface surface;
+    struct model_wall walls[2];
+    int index = 0;
+    int (*check)(const struct model *, const struct model_wall *) = boundary_sliding_particles.check;
+    memset(&model, 0, sizeof model);
+    memset(&surface, 0, sizeof surface);
+    memset(walls, 0, sizeof walls);
+    model.path = (char *)"deck.xml";
+    model.surfaces = &surface;
+    model.walls = walls;
+    model.n_walls = 1;
+    model.dim = 2;
+    surface.name = (char *)"s";
+    surface.kind = SURFACE_PLANE;
+    surface.axis[1] = 1.0;
+    walls[0].name = (char *)"w";
+    walls[1].name = (char *)"v";
+    walls[0].surfaces = walls[1].surfaces = &index;
+    walls[1].n_surfaces = 1;
+    assert_int_equal(check(&model, &walls[0]), STATUS_DECK); // no surface
+    walls[0].n_surfaces = 1;
+    assert_int_equal(check(&model, &walls[0]), STATUS_OK);
+    walls[0].has_region = true;
+    assert_int_equal(check(&model, &walls[0]), STATUS_DECK);
+    walls[0].has_region = false;
+    surface.motion.kind = MOTION_FIELD;
+    assert_int_equal(check(&model, &walls[0]), STATUS_DECK);
+    surface.motion.kind = MOTION_RIGID;
+    surface.motion.axis[2] = 1.0;
+    assert_int_equal(check(&model, &walls[0]), STATUS_OK);
+    char message[256];
+    const struct expression_scope scope = {0};
+    assert_int_equal(expression_create(&surface.motion.angle, "0.3*t", &scope, message, sizeof message), 0);
+    assert_int_equal(check(&model, &walls[0]), STATUS_DECK); // tilts
+    surface.kind = SURFACE_CYLINDER;
+    assert_int_equal(check(&model, &walls[0]), STATUS_OK);
+    motion_reset(&surface.motion);
+    model.dim = 1;
+    assert_int_equal(check(&model, &walls[0]), STATUS_DECK);
+    model.dim = 2;
+    model.n_walls = 2;
+    assert_int_equal(check(&model, &walls[0]), STATUS_DECK); // shared
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_flat_is_paper),   cmocka_unit_test(test_linear_fields),
+        cmocka_unit_test(test_conservation),    cmocka_unit_test(test_subdivision),
+        cmocka_unit_test(test_threads),         cmocka_unit_test(test_circle),
+        cmocka_unit_test(test_rotating_circle), cmocka_unit_test(test_periodic_plate),
+        cmocka_unit_test(test_added_mass),      cmocka_unit_test(test_put_back),
+        cmocka_unit_test(test_warped),          cmocka_unit_test(test_one_dimension),
+        cmocka_unit_test(test_check),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
