@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "deck/deck_node.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,7 +53,9 @@ static void print_entry(struct deck *deck, const struct schema_attribute *attrib
     char message[512], number[32];
     double value;
     if (deck_evaluate(deck, text, deck_unit(deck, attribute), &value, message, sizeof message)) {
-        number_text(value, number);
+        const bool whole = attribute->kind == SCHEMA_INTEGER || attribute->kind == SCHEMA_INTEGERS ||
+                           attribute->kind == SCHEMA_CELLS;
+        number_text(whole ? rint(value) : value, number);
         fputs(number, stream);
     } else {
         print_escaped(text, stream);

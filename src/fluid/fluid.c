@@ -59,6 +59,8 @@ static int region_fill(struct fluid *fluid, const struct model_region *region)
     for (size_t i = 0; i < n && !status; ++i) {
         size_t index;
         status = particles_append(fluid->block, PARTICLE_FLUID, points[i], fluid->view.mass, &index);
+        if (!status)
+            fluid->block->rho[index] = fluid->view.density;
         for (int k = 0; k < dim && !status; ++k)
             if (region->velocity[k])
                 fluid->block->u[k][index] = expression_value(region->velocity[k], points[i], 0.0);
@@ -89,8 +91,10 @@ static int opening_fill(struct fluid *fluid, struct open_boundary *open)
     for (size_t i = 0; i < n && !status; ++i) {
         size_t index;
         status = particles_append(fluid->block, kind, points[i], fluid->view.mass, &index);
-        if (!status)
-            fluid->block->opening[index] = (uint8_t)open->index;
+        if (status)
+            break;
+        fluid->block->opening[index] = (uint8_t)open->index;
+        fluid->block->rho[index] = fluid->view.density;
     }
     memory_free(points);
     return status;

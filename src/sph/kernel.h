@@ -26,11 +26,17 @@ static inline struct kernel kernel_quintic(int dim, double h, bool published)
     return (struct kernel){dim, h, 3.0 * h, norm};
 }
 
+/** Positive part, without the call that fmax is where NaN has to be obeyed. */
+static inline double kernel_positive(double x)
+{
+    return x > 0.0 ? x : 0.0;
+}
+
 /** W(r), 1/m^dim. */
 static inline double kernel_w(const struct kernel *kernel, double r)
 {
     double q = r / kernel->h;
-    double a = fmax(0.0, 3.0 - q), b = fmax(0.0, 2.0 - q), c = fmax(0.0, 1.0 - q);
+    double a = kernel_positive(3.0 - q), b = kernel_positive(2.0 - q), c = kernel_positive(1.0 - q);
     double a2 = a * a, b2 = b * b, c2 = c * c;
     return kernel->constant * (a2 * a2 * a - 6.0 * b2 * b2 * b + 15.0 * c2 * c2 * c);
 }
@@ -39,7 +45,7 @@ static inline double kernel_w(const struct kernel *kernel, double r)
 static inline double kernel_dw(const struct kernel *kernel, double r)
 {
     double q = r / kernel->h;
-    double a = fmax(0.0, 3.0 - q), b = fmax(0.0, 2.0 - q), c = fmax(0.0, 1.0 - q);
+    double a = kernel_positive(3.0 - q), b = kernel_positive(2.0 - q), c = kernel_positive(1.0 - q);
     double a2 = a * a, b2 = b * b, c2 = c * c;
     return kernel->constant / kernel->h * (-5.0 * a2 * a2 + 30.0 * b2 * b2 - 75.0 * c2 * c2);
 }

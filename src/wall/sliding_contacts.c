@@ -201,16 +201,25 @@ static bool coplanar(const struct sliding *s, const double normal_a[3], double d
            fabs(d_a - d_b) < COPLANAR_DISTANCE * s->shares.dx;
 }
 
+/** Facets that a solid moves are never taken together: whether they are coplanar would change within the
+ * coupling's iterations, and with it the extrapolated state by some per cent, so that they would not
+ * converge. */
+static bool joins(const struct boundary *boundary, const struct hit *hit)
+{
+    return hit->piece && !boundary->surfaces[hit->surface]->coupled;
+}
+
 /** Whether all facets in range are parts of one plane that the particle is in front of: then it is the
  * paper's flat wall. The nearest one is returned. */
-static const struct hit *flat_wall(const struct sliding *s, const struct hit *hits, size_t n)
+static const struct hit *flat_wall(const struct boundary *boundary, const struct hit *hits, size_t n)
 {
+    const struct sliding *s = boundary->data;
     const struct hit *best = NULL;
     for (size_t h = 0; h < n; ++h) {
         const struct hit *hit = &hits[h];
         if (!hit->piece)
             continue;
-        if (hit->at.d < 0.0 ||
+        if (hit->at.d < 0.0 || !joins(boundary, hit) ||
             (best && !coplanar(s, hit->piece->normal, hit->at.d, best->piece->normal, best->at.d)))
             return NULL;
         if (!best || hit->at.distance < best->at.distance)
@@ -236,17 +245,19 @@ static void hit_shares(const struct sliding *s, const struct hit *hit, double sh
 }
 
 /** Add a facet's shares to the contact of its plane, or make one. */
-static size_t add_facet(const struct sliding *s, struct hit *hit, const double x[3], struct contact *contacts,
-                        const struct hit **owner, size_t n)
+static size_t add_facet(const struct boundary *boundary, struct hit *hit, const double x[3],
+                        struct contact *contacts, const struct hit **owner, size_t n)
 {
+    const struct sliding *s = boundary->data;
     double share[SHARES];
     hit_shares(s, hit, share);
     if (share[SHARE_DENSITY] == 0.0 && share[SHARE_PRESSURE] == 0.0 && share[SHARE_VISCOUS] == 0.0)
         return n;
     sliding_hit_place(hit);
     size_t g = 0;
-    while (g < n && !(owner[g]->piece && owner[g]->surface == hit->surface &&
-                      coplanar(s, owner[g]->normal, owner[g]->at.d, hit->normal, hit->at.d)))
+    while (g < n &&
+           !(joins(boundary, hit) && joins(boundary, owner[g]) && owner[g]->surface == hit->surface &&
+             coplanar(s, owner[g]->normal, owner[g]->at.d, hit->normal, hit->at.d)))
         ++g;
     if (g == n || hit->at.distance < owner[g]->at.distance) {
         struct contact *contact = &contacts[g];
@@ -304,11 +315,11 @@ static size_t shares_contacts(const struct boundary *boundary, size_t near, cons
             at[k] = c[k] + OUTSIDE_EVALUATE * s->shares.dx * normal[k];
         n_hits = sliding_hits(boundary, near, at, hits);
     }
-    const struct hit *flat = flat_wall(s, hits, n_hits);
+    const struct hit *flat = flat_wall(boundary, hits, n_hits);
     for (size_t h = 0; h < n_hits; ++h) {
         struct hit *hit = &hits[h];
         if (hit->piece && !flat) {
-            n = add_facet(s, hit, at, work->contacts, work->owners, n);
+            n = add_facet(boundary, hit, at, work->contacts, work->owners, n);
         } else if (!hit->piece || hit == flat) {
             struct contact *contact = &work->contacts[n];
             sliding_hit_place(hit);

@@ -22,3 +22,8 @@ check_PROGRAMS += tests/model/test_particles
 tests_model_test_particles_SOURCES = tests/model/test_particles.c
 tests_model_test_particles_LDADD = $(test_libs)
 TESTS += tests/model/test_particles
+
+check_PROGRAMS += tests/model/test_surface_build
+tests_model_test_surface_build_SOURCES = tests/model/test_surface_build.c
+tests_model_test_surface_build_LDADD = $(test_libs)
+TESTS += tests/model/test_surface_build

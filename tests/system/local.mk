@@ -2,3 +2,8 @@
 dist_check_SCRIPTS += tests/system/test_deckgen.sh tests/system/test_tools.sh tests/system/test_exact.sh
 EXTRA_DIST += tests/system/test_tools.py tests/system/test_exact.py
 TESTS += tests/system/test_deckgen.sh tests/system/test_tools.sh tests/system/test_exact.sh
+
+# Decks that must be refused, and the command line.
+dist_check_SCRIPTS += tests/system/test_bad_decks.sh tests/system/test_cli.sh
+EXTRA_DIST += tests/decks-bad tests/system/control.xml
+TESTS += tests/system/test_bad_decks.sh tests/system/test_cli.sh

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every deck of tests/decks-bad is refused with exit code 65 and the messages of its .txt (each line of it must occur), and
-# nothing is written. A good deck, also with a byte order mark, Windows line ends and an editor's schema reference, passes.
+# Every deck of tests/decks-bad is refused with exit code 65 and the messages of its .txt (each line of it
+# must occur), and nothing is written. A good deck, also with a byte order mark, Windows line ends and an
+# editor's schema reference, passes.
 set -u
 skerry=$(pwd)/skerry
 cd "${srcdir:-.}" || exit 99
@@ -21,8 +22,8 @@ control=tests/system/control.xml
 test -f "$work/control.out/control.pvd" || fail "the good deck wrote no series"
 printf '\357\273\277' | cat - "$control" >"$work/bom.xml"
 sed 's/$/\r/' "$control" >"$work/crlf.xml"
-sed 's|<deck |<deck xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="deck.xsd" |' \
-    "$control" >"$work/editor.xml"
+instance='xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="deck.xsd"'
+sed "s|<deck |<deck $instance |" "$control" >"$work/editor.xml"
 cmp -s "$control" "$work/crlf.xml" && fail "the deck with Windows line ends has none"
 cmp -s "$control" "$work/editor.xml" && fail "the deck with a schema reference has none"
 for good in bom crlf editor; do
