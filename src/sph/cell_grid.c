@@ -88,6 +88,8 @@ size_t cell_grid_ranges(const struct cell_grid *grid, const double x[3], double 
         length[k] = grid->upper[k] - grid->lower[k];
         if (k >= grid->dim)
             continue;
+        if (!isfinite(x[k])) /* a diverged particle has no neighbours; it is still written out */
+            return 0;
         if (grid->periodic[k]) {
             low[k] = (int)floor((x[k] - reach - grid->lower[k]) * grid->inverse_width[k]);
             high[k] = (int)floor((x[k] + reach - grid->lower[k]) * grid->inverse_width[k]);
