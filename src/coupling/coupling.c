@@ -67,6 +67,8 @@ int coupling_start(struct coupling *coupling, double t)
         CALL(solid_start(parts->solids[k], t));
     if (parts->fluid)
         CALL(fluid_start(parts->fluid, t));
+    for (size_t k = 0; k < parts->n_surfaces; ++k) /* the first step begins with these loads */
+        surface_add_impulse(parts->surfaces[k], 0.0, SURFACE_LOAD_END);
     return 0;
 }
 

@@ -17,10 +17,10 @@ struct transport_velocity {
     double *a[3];            /**< du/dt of the last evaluation */
     double *a_background[3]; /**< acceleration by the background pressure, same evaluation */
     double *w[3];            /**< transport minus momentum velocity of this step */
-    double
-        *kernel_sum; /**< sum W of this evaluation over fluid, then also over the walls that no solid moves */
-    double *whole_sum; /**< the same with all walls */
-    void *records;     /**< workspace of the force sweep */
+    double *kernel_sum;      /**< sum W of this evaluation over the fluid */
+    double *rigid_sum;       /**< the same with the walls that no solid moves */
+    double *whole_sum;       /**< the same with all walls */
+    void *records;           /**< workspace of the force sweep */
     size_t records_capacity;
 };
 
@@ -89,6 +89,7 @@ static int transport_velocity_create(struct fluid *fluid)
                              tv->a_background));
     CALL(particles_add_field(block, "TransportShift", "m/s", 3, FIELD_SORTED, tv->w));
     CALL(particles_add_field(block, "KernelSum", "m^-dim", 1, 0, &tv->kernel_sum));
+    CALL(particles_add_field(block, "RigidKernelSum", "m^-dim", 1, 0, &tv->rigid_sum));
     return particles_add_field(block, "WholeKernelSum", "m^-dim", 1, 0, &tv->whole_sum);
 }
 
@@ -220,14 +221,15 @@ static void transport_velocity_pressure(struct fluid *fluid, bool coupled_only)
     struct transport_velocity *tv = fluid->data;
     const size_t n = fluid->block->n;
     if (!coupled_only) {
+        memcpy(tv->rigid_sum, tv->kernel_sum, n * sizeof(double));
         for (size_t b = 0; b < fluid->n_boundaries; ++b)
             if (!fluid->boundaries[b]->coupled)
-                wall_sums_add(fluid->boundaries[b], tv->kernel_sum);
-        memcpy(tv->whole_sum, tv->kernel_sum, n * sizeof(double));
+                wall_sums_add(fluid->boundaries[b], tv->rigid_sum);
+        memcpy(tv->whole_sum, tv->rigid_sum, n * sizeof(double));
     }
     for (size_t b = 0; b < fluid->n_boundaries; ++b)
         for (size_t k = 0; k < fluid->boundaries[b]->n_near && fluid->boundaries[b]->coupled; ++k)
-            tv->whole_sum[fluid->boundaries[b]->near[k]] = tv->kernel_sum[fluid->boundaries[b]->near[k]];
+            tv->whole_sum[fluid->boundaries[b]->near[k]] = tv->rigid_sum[fluid->boundaries[b]->near[k]];
     for (size_t b = 0; b < fluid->n_boundaries; ++b)
         if (fluid->boundaries[b]->coupled)
             wall_sums_add(fluid->boundaries[b], tv->whole_sum);

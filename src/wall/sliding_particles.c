@@ -211,7 +211,7 @@ void sliding_place(struct boundary *boundary)
         const struct surface *surface = boundary->surfaces[facet->surface];
         double x[4][3];
         struct piece pieces[4];
-        for (int c = 0; c < facet->n_nodes; ++c)
+        for (int c = 0; c < 4 && c < facet->n_nodes; ++c)
             memcpy(x[c], surface->now.x[surface->nodes[facet->facet][c]], sizeof x[c]);
         facet->n_pieces =
             piece_cut(pieces, (int32_t)f, surface->dim, facet->n_nodes, (const double(*)[3])x, s->flat);
