@@ -7,3 +7,7 @@ TESTS += tests/system/test_deckgen.sh tests/system/test_tools.sh tests/system/te
 dist_check_SCRIPTS += tests/system/test_bad_decks.sh tests/system/test_cli.sh
 EXTRA_DIST += tests/decks-bad tests/system/control.xml
 TESTS += tests/system/test_bad_decks.sh tests/system/test_cli.sh
+
+# Runs that end early.
+dist_check_SCRIPTS += tests/system/test_failures.sh
+TESTS += tests/system/test_failures.sh
