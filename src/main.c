@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "deck/deck.h"
 #include "deck/deck_schema.h"
@@ -457,6 +458,7 @@ static int dispatch(int n, char **arguments)
 
 int main(int n, char **arguments)
 {
+    parallel_wait_asleep(arguments);
     signal(SIGPIPE, SIG_IGN); // a reader that goes away gives a write error instead
     int status = dispatch(n, arguments);
     if ((fflush(stdout) || ferror(stdout)) && !status)

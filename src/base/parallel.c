@@ -34,6 +34,12 @@ static void bind_workers(const cpu_set_t *mask)
     }
 }
 
+void parallel_wait_asleep(char **arguments)
+{
+    if (!getenv("OMP_WAIT_POLICY") && !getenv("GOMP_SPINCOUNT") && !setenv("OMP_WAIT_POLICY", "passive", 1))
+        execv("/proc/self/exe", arguments);
+}
+
 void parallel_setup(int threads)
 {
     cpu_set_t mask;
