@@ -26,6 +26,7 @@ struct fixed_particles {
     double *x[3], *v[3], *a[3]; /**< of the wall */
     double *p, *rho, *u[3];     /**< extrapolated; u for the viscous term */
     double *listed[3];          /**< places when the lists were made */
+    double *wrap[3];            /**< what brings a moving particle back into a periodic domain */
     double *force[3];           /**< reaction of this step */
     struct cell_grid grid;
     uint32_t *order;
@@ -133,10 +134,11 @@ static int places_behind(const struct boundary *boundary, const struct model *mo
 
 static int arrays_create(struct fixed_particles *f)
 {
-    double **const arrays[] = {&f->listed[0], &f->listed[1], &f->listed[2], &f->x[0],     &f->x[1],
-                               &f->x[2],      &f->v[0],      &f->v[1],      &f->v[2],     &f->a[0],
-                               &f->a[1],      &f->a[2],      &f->u[0],      &f->u[1],     &f->u[2],
-                               &f->p,         &f->rho,       &f->force[0],  &f->force[1], &f->force[2]};
+    double **const arrays[] = {&f->wrap[0],   &f->wrap[1],  &f->wrap[2], &f->listed[0], &f->listed[1],
+                               &f->listed[2], &f->x[0],     &f->x[1],    &f->x[2],      &f->v[0],
+                               &f->v[1],      &f->v[2],     &f->a[0],    &f->a[1],      &f->a[2],
+                               &f->u[0],      &f->u[1],     &f->u[2],    &f->p,         &f->rho,
+                               &f->force[0],  &f->force[1], &f->force[2]};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k) {
         *arrays[k] = memory_create(f->n, sizeof(double));
         CHECK_MEMORY(*arrays[k]);
@@ -182,9 +184,22 @@ static void particles_move(struct boundary *boundary, double t)
                                           : &boundary->surfaces[f->surface[k]]->definition->motion;
         motion_at(motion, f->X[k], t, x, v, a);
         for (int d = 0; d < 3; ++d) {
-            f->x[d][k] = x[d];
+            f->x[d][k] = x[d] + f->wrap[d][k];
             f->v[d][k] = v[d];
             f->a[d][k] = a[d];
+        }
+    }
+}
+
+/** Particles of a moving wall that left through a periodic side come in through the other. */
+static void particles_wrap(struct fixed_particles *f)
+{
+    for (int d = 0; d < f->grid.dim; ++d) {
+        const double low = f->grid.lower[d], length = f->grid.upper[d] - low;
+        for (size_t k = 0; k < f->n && f->grid.periodic[d]; ++k) {
+            const double periods = floor((f->x[d][k] - low) / length);
+            f->wrap[d][k] -= periods * length;
+            f->x[d][k] -= periods * length;
         }
     }
 }
@@ -237,8 +252,8 @@ static void fixed_particles_destroy(struct boundary *boundary)
     if (!f)
         return;
     for (int d = 0; d < 3; ++d) {
-        double *const arrays[] = {f->x[d],      f->v[d],     f->a[d],         f->u[d],
-                                  f->listed[d], f->force[d], f->pair_force[d]};
+        double *const arrays[] = {f->x[d],      f->v[d],    f->a[d],     f->u[d],
+                                  f->listed[d], f->wrap[d], f->force[d], f->pair_force[d]};
         for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
             memory_free(arrays[k]);
     }
@@ -286,8 +301,10 @@ static int fixed_particles_list(struct boundary *boundary, const struct fluid_vi
     struct fixed_particles *f = boundary->data;
     const struct particles *block = view->particles;
     const double reach = view->kernel.support + view->skin;
-    if (boundary->moving)
+    if (boundary->moving) {
         particles_move(boundary, view->t);
+        particles_wrap(f);
+    }
     for (int d = 0; d < 3; ++d)
         memcpy(f->listed[d], f->x[d], f->n * sizeof(double));
     const double *x[3] = {f->x[0], f->x[1], f->x[2]};
@@ -448,9 +465,10 @@ static void fixed_particles_load(struct boundary *boundary, const struct fluid_v
         if (f->load_point[wall] < 0)
             continue;
         struct surface *surface = boundary->surfaces[f->surface[wall]];
-        const double *centre = surface->now.x[0],
-                     arm[3] = {f->x[0][wall] - centre[0], f->x[1][wall] - centre[1],
-                               f->x[2][wall] - centre[2]};
+        const double *centre = surface->now.x[0];
+        double arm[3];
+        for (int d = 0; d < 3; ++d)
+            arm[d] = f->x[d][wall] - f->wrap[d][wall] - centre[d];
         for (int d = 0; d < 3; ++d) {
             surface->load[f->load_point[wall]][d] += total[d];
             if (!surface->n_facets)
