@@ -33,11 +33,17 @@ static double value_of(const struct expression *expression, const double *x, dou
     return expression ? expression_value(expression, x, t) : 0;
 }
 
-/** f := nodal loads (shared equally by the nodes of a set) and body forces at time @p t. */
+/** f := nodal loads (shared equally by the nodes of a set) and body forces, the mesh's own and the deck's on
+ * everything, at time @p t. */
 static void given_loads(const struct continuum *continuum, double t, double (*f)[3])
 {
     const struct model_mesh *definition = continuum->definition;
     memset(f, 0, vector_size(continuum));
+    for (int i = 0; i < continuum->dim; i++) {
+        const double value = value_of(continuum->solid->model->time.body_force[i], NULL, t);
+        for (size_t a = 0; a < continuum->mesh->n_nodes; a++)
+            f[a][i] += continuum->nodal_mass[a] * value;
+    }
     for (size_t l = 0; l < definition->n_loads; l++) {
         const struct model_load *load = &definition->loads[l];
         const struct node_set *set = load->set < 0 ? NULL : &continuum->mesh->sets[load->set];

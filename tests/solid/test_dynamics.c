@@ -186,16 +186,18 @@ static void test_start(void **state)
     const double upper[3] = {0.4, 0.2, 0};
     bench_grid(&bench, 2, upper, (const int[3]){3, 2, 0});
     bench_load(&bench, NULL, 1, "-9.81 + 3*t");
+    bench.model.time.body_force[0] = bench_expression("0.7 - t"); /* on everything in the deck */
     bench.t = 0.5;
     bench_start(&bench);
     const double(*a)[3] = bench_field(&bench, "Acceleration");
     for (size_t n = 0; n < bench.mesh.mesh.n_nodes; n++)
-        assert_true(fabs(a[n][1] + 8.31) < 1e-12 && fabs(a[n][0]) < 1e-12);
+        assert_true(fabs(a[n][1] + 8.31) < 1e-12 && fabs(a[n][0] - 0.2) < 1e-12);
     assert_true(isinf(solid_stable_step(bench.solid)));
     assert_string_equal(solid_name(bench.solid), "body");
     assert_ptr_equal(solid_mesh(bench.solid), &bench.mesh.mesh);
     assert_int_equal(bench_step(&bench, 0.1), 0);
     assert_true(fabs(solid_positions(bench.solid)[0][1] - bench_field(&bench, "Displacement")[0][1]) < 1e-15);
+    expression_destroy(bench.model.time.body_force[0]);
     bench_reset(&bench);
 }
 
