@@ -13,3 +13,12 @@ check_PROGRAMS += tests/run/test_preview
 tests_run_test_preview_SOURCES = tests/run/test_preview.c
 tests_run_test_preview_LDADD = $(test_libs)
 TESTS += tests/run/test_preview
+
+# A whole run without output, for tests of any folder that need one.
+test_assembly = tests/run/assembly.c tests/run/assembly.h
+
+check_PROGRAMS += tests/run/test_contracts
+tests_run_test_contracts_SOURCES = tests/run/test_contracts.c tests/run/beam_deck.h $(test_assembly)
+tests_run_test_contracts_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
+tests_run_test_contracts_LDADD = $(test_libs)
+TESTS += tests/run/test_contracts

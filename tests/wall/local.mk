@@ -14,3 +14,9 @@ check_PROGRAMS += tests/wall/test_sliding_particles
 tests_wall_test_sliding_particles_SOURCES = tests/wall/test_sliding_particles.c tests/wall/wall_scene.h
 tests_wall_test_sliding_particles_LDADD = $(test_libs)
 TESTS += tests/wall/test_sliding_particles
+
+check_PROGRAMS += tests/wall/test_rest
+tests_wall_test_rest_SOURCES = tests/wall/test_rest.c $(test_assembly)
+tests_wall_test_rest_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
+tests_wall_test_rest_LDADD = $(test_libs)
+TESTS += tests/wall/test_rest
