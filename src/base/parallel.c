@@ -36,8 +36,14 @@ static void bind_workers(const cpu_set_t *mask)
 
 void parallel_wait_asleep(char **arguments)
 {
-    if (!getenv("OMP_WAIT_POLICY") && !getenv("GOMP_SPINCOUNT") && !setenv("OMP_WAIT_POLICY", "passive", 1))
-        execv("/proc/self/exe", arguments);
+    char program[4096]; // by its own path, so that it keeps its name
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+
+    if (length <= 0 || getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT"))
+        return;
+    program[length] = '\0';
+    if (!setenv("OMP_WAIT_POLICY", "passive", 1))
+        execv(program, arguments);
 }
 
 void parallel_setup(int threads)

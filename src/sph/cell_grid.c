@@ -78,24 +78,24 @@ static int wrap_count(int index, int n)
     return index >= 0 ? index / n : -((n - 1 - index) / n);
 }
 
-size_t cell_grid_ranges(const struct cell_grid *grid, const double x[3], double radius,
-                        struct cell_range ranges[CELL_GRID_RANGES])
+size_t cell_grid_box_ranges(const struct cell_grid *grid, const double lower[3], const double upper[3],
+                            struct cell_range ranges[CELL_GRID_RANGES])
 {
-    const double reach = radius + grid->moved;
     int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     double length[3];
     for (int k = 0; k < 3; ++k) {
         length[k] = grid->upper[k] - grid->lower[k];
         if (k >= grid->dim)
             continue;
-        if (!isfinite(x[k])) /* a diverged particle has no neighbours; it is still written out */
+        /* a diverged particle has no neighbours; it is still written out */
+        if (!isfinite(lower[k]) || !isfinite(upper[k]))
             return 0;
         if (grid->periodic[k]) {
-            low[k] = (int)floor((x[k] - reach - grid->lower[k]) * grid->inverse_width[k]);
-            high[k] = (int)floor((x[k] + reach - grid->lower[k]) * grid->inverse_width[k]);
+            low[k] = (int)floor((lower[k] - grid->moved - grid->lower[k]) * grid->inverse_width[k]);
+            high[k] = (int)floor((upper[k] + grid->moved - grid->lower[k]) * grid->inverse_width[k]);
         } else {
-            low[k] = cell_clamped(grid, k, x[k] - reach);
-            high[k] = cell_clamped(grid, k, x[k] + reach);
+            low[k] = cell_clamped(grid, k, lower[k] - grid->moved);
+            high[k] = cell_clamped(grid, k, upper[k] + grid->moved);
         }
     }
     size_t n = 0;
@@ -121,4 +121,12 @@ size_t cell_grid_ranges(const struct cell_grid *grid, const double x[3], double 
         }
     }
     return n;
+}
+
+size_t cell_grid_ranges(const struct cell_grid *grid, const double x[3], double radius,
+                        struct cell_range ranges[CELL_GRID_RANGES])
+{
+    const double lower[3] = {x[0] - radius, x[1] - radius, x[2] - radius};
+    const double upper[3] = {x[0] + radius, x[1] + radius, x[2] + radius};
+    return cell_grid_box_ranges(grid, lower, upper, ranges);
 }

@@ -45,4 +45,8 @@ int cell_grid_sort(struct cell_grid *grid, const double *const x[3], size_t n, u
 size_t cell_grid_ranges(const struct cell_grid *grid, const double x[3], double radius,
                         struct cell_range ranges[CELL_GRID_RANGES]);
 
+/** The same for every point in the box [lower, upper] (widened by grid->moved). */
+size_t cell_grid_box_ranges(const struct cell_grid *grid, const double lower[3], const double upper[3],
+                            struct cell_range ranges[CELL_GRID_RANGES]);
+
 #endif

@@ -90,14 +90,13 @@ static int cluster_list(struct neighbour_chunk *chunk, struct neighbour_cluster 
 {
     struct box box = cluster_box(cluster, x);
     struct cell_range ranges[CELL_GRID_RANGES];
-    double half = 0.0;
-    for (int k = 0; k < 3; ++k)
+    double lower[3], upper[3];
+    for (int k = 0; k < 3; ++k) {
         cluster->centre[k] = 0.5 * (box.lower[k] + box.upper[k]);
-    half = 0.5 * (box.upper[0] - box.lower[0]);
-    for (int k = 1; k < 3; ++k)
-        if (0.5 * (box.upper[k] - box.lower[k]) > half)
-            half = 0.5 * (box.upper[k] - box.lower[k]);
-    size_t n = cell_grid_ranges(grid, cluster->centre, radius + half, ranges);
+        lower[k] = box.lower[k] - radius;
+        upper[k] = box.upper[k] + radius;
+    }
+    size_t n = cell_grid_box_ranges(grid, lower, upper, ranges);
     cluster->segment = (uint32_t)chunk->n_segments;
     cluster->n_segments = 0;
     for (size_t r = 0; r < n; ++r)
