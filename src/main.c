@@ -458,7 +458,7 @@ static int dispatch(int n, char **arguments)
 
 int main(int n, char **arguments)
 {
-    parallel_wait_asleep(arguments);
+    parallel_wait_briefly(arguments);
     signal(SIGPIPE, SIG_IGN); // a reader that goes away gives a write error instead
     int status = dispatch(n, arguments);
     if ((fflush(stdout) || ferror(stdout)) && !status)

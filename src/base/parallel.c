@@ -34,7 +34,7 @@ static void bind_workers(const cpu_set_t *mask)
     }
 }
 
-void parallel_wait_asleep(char **arguments)
+void parallel_wait_briefly(char **arguments)
 {
     char program[4096]; // by its own path, so that it keeps its name
     const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
@@ -42,7 +42,7 @@ void parallel_wait_asleep(char **arguments)
     if (length <= 0 || getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT"))
         return;
     program[length] = '\0';
-    if (!setenv("OMP_WAIT_POLICY", "passive", 1))
+    if (!setenv("GOMP_SPINCOUNT", "1000", 1))
         execv(program, arguments);
 }
 

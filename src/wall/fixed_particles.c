@@ -40,6 +40,8 @@ struct fixed_particles {
     uint32_t *back_near;   /**< near number of each pair in back */
     double *pair_force[3]; /**< per pair */
     size_t force_capacity[3], back_near_capacity;
+    uint8_t *marked; /**< per moving particle: may be near, workspace of the list */
+    size_t marked_capacity;
 };
 
 static int fixed_particles_check(const struct model *model, const struct model_wall *wall)
@@ -257,8 +259,8 @@ static void fixed_particles_destroy(struct boundary *boundary)
         for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
             memory_free(arrays[k]);
     }
-    void *const others[] = {f->X,     f->surface, f->load_point, f->order, f->p,        f->rho,
-                            f->pairs, f->start,   f->back_start, f->back,  f->back_near};
+    void *const others[] = {f->X,     f->surface, f->load_point, f->order, f->p,         f->rho,
+                            f->pairs, f->start,   f->back_start, f->back,  f->back_near, f->marked};
     for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
         memory_free(others[k]);
     cell_grid_reset(&f->grid);
@@ -296,6 +298,21 @@ static int pairs_turn(struct boundary *boundary)
     return 0;
 }
 
+/** Mark the moving particles in the cells that some wall particle reaches: few, where walls are few. */
+static int moving_mark(struct fixed_particles *f, const struct fluid_view *view, double reach)
+{
+    struct cell_range ranges[CELL_GRID_RANGES];
+    CALL(memory_grow((void **)&f->marked, &f->marked_capacity, view->particles->n, sizeof *f->marked));
+    memset(f->marked, 0, view->particles->n);
+    for (size_t k = 0; k < f->n; ++k) {
+        const double place[3] = {f->x[0][k], f->x[1][k], f->x[2][k]};
+        const size_t n = cell_grid_ranges(view->grid, place, reach, ranges);
+        for (size_t r = 0; r < n; ++r)
+            memset(f->marked + ranges[r].begin, 1, ranges[r].end - ranges[r].begin);
+    }
+    return 0;
+}
+
 static int fixed_particles_list(struct boundary *boundary, const struct fluid_view *view)
 {
     struct fixed_particles *f = boundary->data;
@@ -309,8 +326,11 @@ static int fixed_particles_list(struct boundary *boundary, const struct fluid_vi
         memcpy(f->listed[d], f->x[d], f->n * sizeof(double));
     const double *x[3] = {f->x[0], f->x[1], f->x[2]};
     CALL(cell_grid_sort(&f->grid, x, f->n, f->order));
+    CALL(moving_mark(f, view, reach));
     boundary->n_near = f->n_pairs = 0;
     for (size_t i = 0; i < block->n; ++i) {
+        if (!f->marked[i])
+            continue;
         struct cell_range ranges[CELL_GRID_RANGES];
         double place[3] = {block->x[0][i], block->x[1][i], block->x[2][i]};
         size_t n = cell_grid_ranges(&f->grid, place, reach, ranges), first = f->n_pairs;
