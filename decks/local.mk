@@ -14,4 +14,6 @@ nobase_dist_pkgdata_DATA += \
 	decks/taylor-couette/taylor_couette_transient.csv \
 	decks/turek-hron-fsi2/README.md \
 	decks/turek-hron-fsi2/turek-hron-fsi2.xml \
-	decks/turek-hron-fsi2/turek_hron_fsi2.csv
+	decks/turek-hron-fsi2/turek-hron-fsi2.png \
+	decks/turek-hron-fsi2/turek_hron_fsi2.csv \
+	decks/validation.csv
