@@ -182,8 +182,8 @@ static int fluid_build(struct fluid *fluid, const struct fluid_parts *parts)
     CALL(particles_create(&fluid->block, "fluid", model->dim, 1024));
     view_fill(fluid);
     double reach = fluid->view.kernel.support + fluid->skin;
-    /* rows of about 3.4 spacings in 2-D and 2.3 in 3-D: long clusters without many idle candidates */
-    double width = (model->dim == 3 ? 2.3 / 3.0 : 3.4 / 3.0) * fluid->view.kernel.support;
+    /* rows of about 3.4 spacings in 2-D and 2.8 in 3-D: long clusters without many idle candidates */
+    double width = (model->dim == 3 ? 2.8 / 3.0 : 3.4 / 3.0) * fluid->view.kernel.support;
     CALL(cell_grid_create(&fluid->grid, model->dim, model->domain.lower, model->domain.upper,
                           model->domain.periodic, model->dim == 3 ? width : fmax(width, reach),
                           fluid->view.spacing));

@@ -35,7 +35,7 @@ enum record {
 
 /** One vector's worth of a cluster's particles. */
 struct lanes {
-    vreal x[3], u[3], rho, p, v2;
+    vreal x[3], rho, p, v2;
 };
 
 SWEEP_INLINE void lanes_load(struct lanes lanes[PARTS], const struct neighbour_cluster *cluster,
@@ -52,8 +52,6 @@ SWEEP_INLINE void lanes_load(struct lanes lanes[PARTS], const struct neighbour_c
             part->x[k][l] = (real)((arrays->x[k][i] - cluster->centre[k]) * scale);
         if (!force)
             continue;
-        for (int k = 0; k < dim; ++k)
-            part->u[k][l] = records[i * RECORD_SIZE + RECORD_U + (size_t)k];
         part->rho[l] = records[i * RECORD_SIZE + RECORD_RHO];
         part->p[l] = records[i * RECORD_SIZE + RECORD_P];
         part->v2[l] = records[i * RECORD_SIZE + RECORD_V2];
@@ -120,14 +118,17 @@ SWEEP_INLINE void density_tile(const struct lanes lanes[PARTS], const struct pac
         density_part(&lanes[part], packed, n, dim, &sums[part]);
 }
 
+/** g: sum of (V_i^2 + V_j^2) W'/r (r_i - r_j); s: without the vector, for the velocity of i in the viscous
+ * term; a: the rest. */
 struct force_sums {
-    vreal a[3], g[3];
+    vreal a[3], g[3], s;
 };
 
 SWEEP_INLINE void force_part(const struct lanes *lanes, const struct packed *packed, int n, int dim,
                              const real *records, real viscosity_over_h, struct force_sums *sums)
 {
     vreal a[3] = {sums->a[0], sums->a[1], sums->a[2]}, g[3] = {sums->g[0], sums->g[1], sums->g[2]};
+    vreal s = sums->s;
     for (int c = 0; c < n; ++c) {
         const real *record = records + (size_t)packed->index[c] * RECORD_SIZE;
         const real rho = record[RECORD_RHO], p = record[RECORD_P];
@@ -140,13 +141,15 @@ SWEEP_INLINE void force_part(const struct lanes *lanes, const struct packed *pac
         const vreal inverse = inverse_root(q2 + SWEEP_LEAST);
         const vreal fe = (lanes->v2 + record[RECORD_V2]) * quintic_derivative(q2 * inverse) * inverse;
         const vreal pressure = fe * (rho * lanes->p + lanes->rho * p) / (lanes->rho + rho);
-        const vreal convective = (real)0.5 * rho * we * fe, viscous = viscosity_over_h * fe;
+        /* convective stress of j and velocity of j in the viscous term */
+        const vreal momentum = fe * ((real)0.5 * rho * we - viscosity_over_h);
+        s += fe;
         for (int k = 0; k < dim; ++k) {
-            const real u = record[RECORD_U + k];
             g[k] += fe * d[k];
-            a[k] += viscous * (lanes->u[k] - u) - pressure * d[k] + convective * u;
+            a[k] += momentum * record[RECORD_U + k] - pressure * d[k];
         }
     }
+    sums->s = s;
     for (int k = 0; k < dim; ++k) {
         sums->a[k] = a[k];
         sums->g[k] = g[k];
@@ -194,7 +197,7 @@ SWEEP_INLINE void cluster_force(const struct neighbour_list *list, const struct 
     const struct neighbour_chunk *chunk = &list->chunks[cluster->chunk];
     struct lanes lanes[PARTS];
     struct packed packed;
-    struct force_sums sums[PARTS] = {{{{0}}, {{0}}}};
+    struct force_sums sums[PARTS] = {{{{0}}, {{0}}, {0}}};
     const real viscosity = (real)(arrays->viscosity / arrays->h);
     lanes_load(lanes, cluster, arrays, dim, 1);
     int n = 0;
@@ -216,12 +219,14 @@ SWEEP_INLINE void cluster_force(const struct neighbour_list *list, const struct 
         size_t i = cluster->first + (uint32_t)l;
         const struct force_sums *part = &sums[l / SWEEP_WIDTH];
         double scale = arrays->constant / (16.0 * arrays->h * arrays->m[i]), wg = 0.0;
+        const double moving = viscosity * (double)part->s[l % SWEEP_WIDTH];
         for (int k = 0; k < dim; ++k)
             wg += arrays->w[k][i] * (double)part->g[k][l % SWEEP_WIDTH];
-        /* the i-part of the convective stress factors out of the sum */
+        /* the i-parts of the convective stress and of the viscous term factor out of the sums */
         for (int k = 0; k < dim; ++k) {
             arrays->a[k][i] =
-                scale * ((double)part->a[k][l % SWEEP_WIDTH] + 0.5 * arrays->rho[i] * arrays->u[k][i] * wg);
+                scale * ((double)part->a[k][l % SWEEP_WIDTH] + moving * (double)(real)arrays->u[k][i] +
+                         0.5 * arrays->rho[i] * arrays->u[k][i] * wg);
             arrays->a_background[k][i] =
                 -arrays->background_pressure * scale * (double)part->g[k][l % SWEEP_WIDTH];
         }
