@@ -141,8 +141,12 @@ static int output_open(struct simulation *s)
 static int output_sample(struct simulation *s)
 {
     double since = timer_now();
-    if (schedule_due(s->model->output.every, s->t, s->model->time.step, &s->next_frame))
+    if (schedule_due(s->model->output.every, s->t, s->model->time.step, &s->next_frame)) {
         CALL(frames_write(s->frames, s->t, s->step));
+        char text[32];
+        snprintf(text, sizeof text, "frame %d", frames_count(s->frames) - 1);
+        progress_event(&s->progress, "frame", text);
+    }
     CALL(monitors_sample(s->monitors, s->t, s->model->time.step));
     timer_lap(&s->timer, TIMER_OUTPUT, &since);
     return 0;
@@ -243,6 +247,7 @@ static size_t numbers_fill(const struct simulation *s, struct summary_pair numbe
             put_back += fluid_boundary(s->fluid, b)->put_back_count;
         *n++ = (struct summary_pair){
             "bytes_per_particle", (double)fluid_bytes(s->fluid) / (double)fluid_particles(s->fluid)->n, NULL};
+        *n++ = (struct summary_pair){"stable_step", fluid_stable_step(s->fluid), NULL};
         *n++ = (struct summary_pair){"put_back", (double)put_back, NULL};
         *n++ = (struct summary_pair){"rebuilds", (double)fluid_rebuilds(s->fluid), NULL};
     }
