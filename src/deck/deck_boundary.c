@@ -46,6 +46,10 @@ static int read_wall(struct deck *deck, const struct deck_node *node, struct mod
     else if (region && sliding)
         deck_error(deck, region, NULL,
                    "sliding particles slide on surfaces; a region is for treatment=\"fixed-particles\"");
+    if (region && deck_has(region, "velocity"))
+        deck_error(deck, region, "velocity",
+                   "velocity is an initial velocity of fluid; a wall moves by a <rotation>, <translation> or "
+                   "<displacement> inside <wall>");
     if (!region && wall->motion.kind != MOTION_NONE)
         deck_error(deck, node, NULL, "its motion belongs to its <surface>s");
     if (!sliding && wall->corners == CORNERS_PAPER)

@@ -203,7 +203,6 @@ int deck_read_region(struct deck *deck, struct deck_node *node, struct model_reg
     region->where = node->where;
     region->has_origin = deck_vector(deck, node, "origin", region->origin);
     deck_expressions(deck, node, "velocity", region->velocity);
-    region->pressure = deck_expression(deck, node, "pressure");
     if (!node->children || node->children->next) {
         deck_error(deck, node, NULL,
                    "takes exactly one shape or one <points>; put several shapes into a <union>");

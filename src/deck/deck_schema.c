@@ -111,7 +111,6 @@ static const struct schema_attribute region_attributes[] = {
      .doc = "corner of a cell of the particle lattice; default: lower corner of the shape's bounding box"},
     {"velocity", SCHEMA_EXPRESSIONS, .unit = "m/s", .variables = "xyz",
      .doc = "initial velocity; default: at rest"},
-    {"pressure", SCHEMA_EXPRESSION, .unit = "Pa", .variables = "xyz", .doc = "initial pressure; default: 0"},
     {0}};
 
 static const struct schema_child region_children[] = {{SCHEMA_POINT_LIST, 0, 1}, {SCHEMA_ELEMENTS_END, 0, 0}};

@@ -42,8 +42,8 @@ static void body_force_at(struct fluid *fluid, double t)
         fluid->view.body_force[k] = expression_value(fluid->model->time.body_force[k], NULL, t);
 }
 
-/** Initial density from a region's pressure, by the inverse equation of state: the particle's mass stays rho0
- * dx^dim. */
+/** Particles of a region; the density they start with is only a first value, it is summed before it is used.
+ */
 static int region_fill(struct fluid *fluid, const struct model_region *region)
 {
     int dim = fluid->model->dim;

@@ -15,7 +15,6 @@ static void region_reset(struct model_region *region)
     shape_reset(&region->shape);
     memory_free(region->points);
     expressions_reset(region->velocity);
-    expression_destroy(region->pressure);
 }
 
 static void materials_reset(struct model *model)

@@ -66,7 +66,6 @@ struct model_region {
     bool has_origin;
     double origin[3];               /**< of the lattice; default: lower corner of the shape's bounding box */
     struct expression *velocity[3]; /**< initial, of x, y, z; NULL: 0 */
-    struct expression *pressure;    /**< initial, NULL: 0 */
     struct location where;
 };
 

@@ -16,7 +16,7 @@ static const char deck_of_everything[] =
     "  </materials>\n"
     "  <fluid material='oil' spacing='dx' damping='1' arithmetic='double' kernel-constant='published' "
     "smoothing-length-ratio='1.2'>\n"
-    "    <region velocity='y 0 -x' pressure='100-z'><difference>\n"
+    "    <region velocity='y 0 -x'><difference>\n"
     "      <box lower='-0.5 -0.5 -0.5' upper='0.5 0.5 0.5'/>\n"
     "      <union><ball centre='0 0 0' radius='0.3'/>"
     "<cylinder from='0 0 0' to='0 0 1' radius='0.4' inner-radius='0.1'/></union>\n"

@@ -122,7 +122,6 @@ static void test_regions(void **state)
     assert_true(region->has_origin);
     assert_vector(region->origin, -0.5, -0.5, -0.5); // the lower corner of the bounding box
     assert_near(expression_value(region->velocity[2], x, 0.0), -0.3);
-    assert_near(expression_value(region->pressure, x, 0.0), 99.5);
     const struct shape *shape = &region->shape;
     assert_int_equal(shape->kind, SHAPE_DIFFERENCE);
     assert_int_equal(shape->n_children, 4);
