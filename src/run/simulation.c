@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -290,7 +291,7 @@ static int summary_finish(struct simulation *s, int result)
                               .numbers = numbers,
                               .timer = &s->timer};
     if (!status)
-        status = summary_hash_file(s->model->path, &summary.deck_hash);
+        status = hash_file(s->model->path, &summary.deck_hash, NULL);
     if (!status)
         status = summary_write(&summary, path);
     if (!status && !s->options->quiet)

@@ -3,34 +3,14 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "run/json.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
-
-enum { HASH_LIMIT = 1 << 30 }; // bytes of a file that is hashed
-
-uint64_t summary_hash(const char *data, size_t size)
-{
-    uint64_t hash = 0xcbf29ce484222325U;
-    for (size_t i = 0; i < size; ++i)
-        hash = (hash ^ (unsigned char)data[i]) * 0x100000001b3U;
-    return hash;
-}
-
-int summary_hash_file(const char *path, uint64_t *hash)
-{
-    char *data;
-    size_t size;
-    CALL(file_read(path, HASH_LIMIT, &data, &size));
-    *hash = summary_hash(data, size);
-    memory_free(data);
-    return 0;
-}
 
 static double rate(const struct summary *summary)
 {
@@ -118,7 +98,9 @@ static void json_write(FILE *stream, const struct summary *summary)
     text_pair(stream, "version", summary->version);
     text_pair(stream, "revision", summary->revision);
     text_pair(stream, "deck", summary->deck);
-    fprintf(stream, ",\n  \"deck_hash\": \"fnv1a64:%016" PRIx64 "\"", summary->deck_hash);
+    char hash[HASH_TEXT];
+    hash_print(summary->deck_hash, hash);
+    text_pair(stream, "deck_hash", hash);
     machine_write(stream);
     fprintf(stream, ",\n  \"status\": %d,\n  \"particles\": %zu,\n  \"dim\": %d,\n  \"threads\": %d",
             summary->status, summary->particles, summary->dim, summary->threads);

@@ -18,7 +18,7 @@ struct summary_pair {
 struct summary {
     const char *version, *revision; /**< of the program */
     const char *deck;               /**< path of the deck */
-    uint64_t deck_hash;             /**< summary_hash of its bytes */
+    uint64_t deck_hash;             /**< of its bytes (base/hash.h) */
     const char *isa;                /**< instruction set of the sweeps; NULL: no fluid */
     int dim, threads, status;       /**< status: what the program returns */
     size_t particles;
@@ -35,12 +35,6 @@ struct summary {
     const struct summary_pair *numbers;    /**< further keys of the top level */
     const struct timer *timer;             /**< wall time by phase */
 };
-
-/** FNV-1a, 64 bits. */
-uint64_t summary_hash(const char *data, size_t size);
-
-/** Hash of a file. Returns 0, STATUS_NO_INPUT or STATUS_IO. */
-int summary_hash_file(const char *path, uint64_t *hash);
 
 /** Write summary.json at @p path, atomically. Returns 0, STATUS_IO or STATUS_MEMORY. */
 int summary_write(const struct summary *summary, const char *path);

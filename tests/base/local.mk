@@ -28,3 +28,8 @@ check_PROGRAMS += tests/base/test_text
 tests_base_test_text_SOURCES = tests/base/test_text.c
 tests_base_test_text_LDADD = $(test_libs)
 TESTS += tests/base/test_text
+
+check_PROGRAMS += tests/base/test_hash
+tests_base_test_hash_SOURCES = tests/base/test_hash.c
+tests_base_test_hash_LDADD = $(test_libs)
+TESTS += tests/base/test_hash

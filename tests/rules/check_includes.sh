@@ -31,7 +31,7 @@ home()
     udunits2.h) echo deck ;;
     muParser*) echo math ;;
     suitesparse/* | cholmod.h | umfpack.h) echo math ;;
-    png.h) echo output ;;
+    png.h | hdf5.h) echo output ;;
     esac
 }
 

@@ -43,23 +43,6 @@ static void text_read(char *text, size_t size)
     fclose(stream);
 }
 
-// The published test vectors of FNV-1a, 64 bits (Fowler, Noll, Vo).
-static void test_hash(void **state)
-{
-    (void)state;
-    assert_true(summary_hash("", 0) == 0xcbf29ce484222325U);
-    assert_true(summary_hash("a", 1) == 0xaf63dc4c8601ec8cU);
-    assert_true(summary_hash("foobar", 6) == 0x85944171f73967e8U);
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs("foobar", stream);
-    fclose(stream);
-    uint64_t hash;
-    assert_int_equal(summary_hash_file(path, &hash), 0);
-    assert_true(hash == 0x85944171f73967e8U);
-    assert_int_equal(summary_hash_file("/nowhere", &hash), STATUS_NO_INPUT);
-}
-
 static const struct summary_pair parameters[] = {{"dx", 0.005, NULL}, {"end", NAN, NULL}};
 static const struct summary_pair balances[] = {{"fluid mass", 1.0 / 3.0, "kg/m"}};
 static const struct summary_pair numbers[] = {{"frames", 42, NULL}};
@@ -151,7 +134,6 @@ static void test_status(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_hash, create, destroy),
         cmocka_unit_test_setup_teardown(test_summary, create, destroy),
         cmocka_unit_test_setup_teardown(test_status, create, destroy),
     };
