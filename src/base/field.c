@@ -2,9 +2,12 @@
 #include "base/field.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 
 #include <stdint.h>
 #include <string.h>
+
+const size_t field_one = 1;
 
 size_t field_size(enum field_type type)
 {
@@ -43,6 +46,49 @@ int field_read(const struct field_group *group, const struct field *field, void 
             memcpy(to + i * components * size, from + i * size, size);
     }
     return STATUS_OK;
+}
+
+void field_write(const struct field_group *group, const struct field *field, const void *source)
+{
+    const size_t size = field_size(field->type), components = (size_t)field->components;
+    const size_t count = *group->count;
+
+    if (components == 1 || !field->data[1]) {
+        if (count > 0)
+            memcpy(field->data[0], source, count * components * size);
+        return;
+    }
+    for (size_t c = 0; c < components; c++) {
+        const char *from = (const char *)source + c * size;
+        char *to = field->data[c];
+        for (size_t i = 0; i < count; i++)
+            memcpy(to + i * size, from + i * components * size, size);
+    }
+}
+
+size_t field_count_state(const struct field_group *group)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < group->n_fields; i++)
+        n += (group->fields[i].flags & FIELD_STATE) != 0;
+    return n;
+}
+
+int field_list_add(struct field_list *list, const struct field_group *group)
+{
+    if (field_count_state(group) == 0)
+        return STATUS_OK;
+    void *groups = list->groups;
+    CALL(memory_grow(&groups, &list->capacity, list->n + 1, sizeof *list->groups));
+    list->groups = groups;
+    list->groups[list->n++] = group;
+    return STATUS_OK;
+}
+
+void field_list_reset(struct field_list *list)
+{
+    memory_free(list->groups);
+    *list = (struct field_list){0};
 }
 
 const struct field *field_find(const struct field_group *group, const char *name)

@@ -37,6 +37,18 @@ struct field_group {
     const size_t *count; /**< current number of items (points to the owner's counter) */
     struct field *fields;
     size_t n_fields;
+    /** Make room for @p count items and set the counter, before fields are written; NULL: their number is
+     * fixed. Returns a status. */
+    int (*resize)(void *owner, size_t count);
+};
+
+/** Count of groups of single values. */
+extern const size_t field_one;
+
+/** Groups whose STATE fields together are the state of something, in a fixed order. */
+struct field_list {
+    size_t n, capacity;
+    const struct field_group **groups; /**< not owned */
 };
 
 /** Size in bytes of one component of @p type. */
@@ -45,6 +57,16 @@ size_t field_size(enum field_type type);
 /** Copy a field into @p destination (count x components, interleaved, of its own type), by fill or from data.
  * Returns a status. */
 int field_read(const struct field_group *group, const struct field *field, void *destination);
+
+/** The reverse: from @p source (count x components, interleaved) into the arrays of a field that has some. */
+void field_write(const struct field_group *group, const struct field *field, const void *source);
+
+/** Number of fields of a group that are state. */
+size_t field_count_state(const struct field_group *group);
+
+/** Add a group to a list; one without state is left out. Returns 0 or STATUS_MEMORY. */
+int field_list_add(struct field_list *list, const struct field_group *group);
+void field_list_reset(struct field_list *list);
 
 /** The field called @p name, or NULL. */
 const struct field *field_find(const struct field_group *group, const char *name);

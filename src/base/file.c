@@ -6,7 +6,9 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -90,6 +92,31 @@ int file_atomic_commit(struct file_atomic *file)
                  error ? strerror(error) : "an earlier write failed");
     file_atomic_abandon(file);
     return STATUS_IO;
+}
+
+int file_publish(const char *temporary, const char *path)
+{
+    const int descriptor = open(temporary, O_RDWR | O_CLOEXEC);
+    const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
+    const int error = errno;
+    if (descriptor >= 0)
+        close(descriptor);
+    CHECK(synced, STATUS_IO, "%s: cannot sync: %s", temporary, strerror(error));
+    CHECK(!rename(temporary, path), STATUS_IO, "%s: cannot rename to its final name: %s", temporary,
+          strerror(errno));
+    CHECK(!sync_folder(path), STATUS_IO, "%s: cannot sync its folder: %s", path, strerror(errno));
+    return STATUS_OK;
+}
+
+int file_lock_folder(const char *path, int *lock)
+{
+    *lock = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (*lock < 0 || flock(*lock, LOCK_EX | LOCK_NB) == 0)
+        return STATUS_OK;
+    const bool taken = errno == EWOULDBLOCK;
+    close(*lock);
+    *lock = -1;
+    return taken ? STATUS_CREATE : STATUS_OK;
 }
 
 void file_atomic_abandon(struct file_atomic *file)

@@ -22,6 +22,14 @@ int file_atomic_commit(struct file_atomic *file);
 /** Give up: remove the temporary file. Safe after commit. */
 void file_atomic_abandon(struct file_atomic *file);
 
+/** Sync the closed file @p temporary, rename it to @p path and sync the folder. Returns 0 or STATUS_IO. */
+int file_publish(const char *temporary, const char *path);
+
+/** Keep other processes out of a folder until this one ends: *@p lock is a descriptor to close. Returns 0
+ * (also where the file system cannot lock: then *@p lock is -1) or STATUS_CREATE, not reported: another
+ * process has it. */
+int file_lock_folder(const char *path, int *lock);
+
 /** Read a regular file whole (at most @p limit bytes) into memory with a NUL behind it. *@p data is freed
  * with memory_free. Returns 0, STATUS_NO_INPUT (missing, a folder, not a regular file, too large: reported)
  * or STATUS_IO. */

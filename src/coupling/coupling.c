@@ -32,6 +32,22 @@ static int acceleration_create(struct coupling *coupling, const struct model_cou
     return relaxation_create(&coupling->relaxation, kind, definition->relaxation, coupling->n_dof);
 }
 
+static void state_register(struct coupling *coupling)
+{
+    const struct field fields[] = {
+        {"StepEnd", "s", FIELD_DOUBLE, 1, FIELD_STATE, {&coupling->t_end}, NULL},
+        {"Steps", "-", FIELD_INT64, 1, FIELD_STATE, {&coupling->steps}, NULL},
+        {"TotalIterations", "-", FIELD_INT64, 1, FIELD_STATE, {&coupling->total_iterations}, NULL},
+        {"WallImpulse", "N s", FIELD_DOUBLE, 3, FIELD_STATE, {coupling->wall_impulse}, NULL},
+    };
+    memcpy(coupling->state_fields, fields, sizeof fields);
+    coupling->state = (struct field_group){.name = "coupling",
+                                           .owner = coupling,
+                                           .count = &field_one,
+                                           .fields = coupling->state_fields,
+                                           .n_fields = sizeof fields / sizeof *fields};
+}
+
 int coupling_create(struct coupling **coupling, const struct model *model, const struct coupling_parts *parts)
 {
     struct coupling *c = memory_create(1, sizeof *c);
@@ -39,6 +55,7 @@ int coupling_create(struct coupling **coupling, const struct model *model, const
     c->parts = *parts;
     c->definition = &model->coupling;
     c->type = coupling_choose(model);
+    state_register(c);
     for (size_t s = 0; s < parts->n_surfaces; ++s)
         if (parts->surfaces[s]->coupled)
             c->n_dof += (size_t)model->dim * parts->surfaces[s]->n_points;
@@ -69,14 +86,44 @@ int coupling_start(struct coupling *coupling, double t)
         CALL(fluid_start(parts->fluid, t));
     for (size_t k = 0; k < parts->n_surfaces; ++k) /* the first step begins with these loads */
         surface_add_impulse(parts->surfaces[k], 0.0, SURFACE_LOAD_END);
+    for (size_t k = 0; k < parts->n_solids; ++k)
+        solid_load(parts->solids[k]);
+    coupling->t_end = t;
     return 0;
+}
+
+int coupling_state(struct coupling *coupling, struct field_list *list)
+{
+    const struct coupling_parts *parts = &coupling->parts;
+    CALL(field_list_add(list, &coupling->state));
+    for (size_t k = 0; k < parts->n_surfaces; ++k)
+        CALL(field_list_add(list, &parts->surfaces[k]->fields));
+    for (size_t k = 0; k < parts->n_solids; ++k)
+        CALL(solid_state(parts->solids[k], list));
+    return parts->fluid ? fluid_state(parts->fluid, list) : 0;
+}
+
+int coupling_resume(struct coupling *coupling)
+{
+    const struct coupling_parts *parts = &coupling->parts;
+    for (size_t k = 0; k < parts->n_surfaces; ++k)
+        surface_resume(parts->surfaces[k], coupling->t_end);
+    for (size_t k = 0; k < parts->n_solids; ++k)
+        CALL(solid_resume(parts->solids[k], coupling->t_end));
+    return parts->fluid ? fluid_resume(parts->fluid, coupling->t_end) : 0;
 }
 
 int coupling_step(struct coupling *coupling, double t, double dt)
 {
     CALL(coupling->type->step(coupling, t, dt));
-    for (size_t s = 0; s < coupling->parts.n_surfaces; ++s)
-        surface_add_impulse(coupling->parts.surfaces[s], dt, SURFACE_LOAD_END);
+    coupling->t_end = t + dt;
+    for (size_t s = 0; s < coupling->parts.n_surfaces; ++s) {
+        struct surface *surface = coupling->parts.surfaces[s];
+        surface_add_impulse(surface, dt, SURFACE_LOAD_END);
+        for (size_t p = 0; p < surface->n_points; ++p)
+            for (int k = 0; k < 3; ++k)
+                coupling->wall_impulse[k] += surface->impulse[p][k];
+    }
     coupling->total_iterations += coupling->iterations;
     ++coupling->steps;
     return 0;

@@ -38,7 +38,11 @@ struct coupling {
     double *difference;            /**< trial minus level 1, n_dof entries */
     int iterations;                /**< of the last step: calls of fluid_interface */
     double residual;               /**< of the last step: eq. 46, m/s */
-    long total_iterations, steps;
+    int64_t total_iterations, steps;
+    double t_end;           /**< end of the last step, s */
+    double wall_impulse[3]; /**< of the fluid on all surfaces since the start, N s (2-D: N s/m) */
+    struct field_group state;
+    struct field state_fields[4];
 };
 
 /** The scheme the model asks for, or the default for its parts; NULL (reported) when there is none of that
@@ -51,6 +55,12 @@ void coupling_destroy(struct coupling *coupling);
 
 /** Initial evaluation of all parts at @p t. */
 int coupling_start(struct coupling *coupling, double t);
+
+/** Add everything that the next step reads of all parts. */
+int coupling_state(struct coupling *coupling, struct field_list *list);
+
+/** Go on from state fields that have been filled: everything else is derived, nothing is evaluated. */
+int coupling_resume(struct coupling *coupling);
 
 /** Advance everything from @p t by @p dt. */
 int coupling_step(struct coupling *coupling, double t, double dt);

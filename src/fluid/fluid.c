@@ -100,6 +100,23 @@ static int opening_fill(struct fluid *fluid, struct open_boundary *open)
     return status;
 }
 
+static int opening_register(struct open_boundary *open)
+{
+    const struct field fields[] = {
+        {"Born", "-", FIELD_INT64, 1, FIELD_STATE, {&open->born}, NULL},
+        {"Removed", "-", FIELD_INT64, 1, FIELD_STATE, {&open->removed}, NULL},
+    };
+    char *name = memory_print("opening-%s", open->definition->name);
+    CHECK_MEMORY(name);
+    memcpy(open->state_fields, fields, sizeof fields);
+    open->state = (struct field_group){.name = name,
+                                       .owner = open,
+                                       .count = &field_one,
+                                       .fields = open->state_fields,
+                                       .n_fields = sizeof fields / sizeof *fields};
+    return 0;
+}
+
 static int openings_create(struct fluid *fluid, const struct fluid_parts *parts)
 {
     const struct model *model = fluid->model;
@@ -115,7 +132,12 @@ static int openings_create(struct fluid *fluid, const struct fluid_parts *parts)
         open->index = (int)k;
         open->depth = ceil(reach / dx - 1e-6) * dx;
         ++fluid->n_openings;
+        CALL(opening_register(open));
         CALL(open->type->create(open, model, &fluid->view));
+        if (open->reads_density) {
+            particles_add_flags(fluid->block, "Density", FIELD_STATE);
+            particles_add_flags(fluid->block, "Pressure", FIELD_STATE);
+        }
         CALL(opening_fill(fluid, open));
     }
     return 0;
@@ -171,6 +193,23 @@ static int overlaps_check(const struct fluid *fluid)
     return 0;
 }
 
+static int state_register(struct fluid *fluid)
+{
+    const struct field fields[] = {
+        {"ListTime", "s", FIELD_DOUBLE, 1, FIELD_STATE, {&fluid->list_time}, NULL},
+        {"Drift", "m", FIELD_DOUBLE, 1, FIELD_STATE, {&fluid->drift}, NULL},
+        {"NextId", "-", FIELD_INT64, 1, FIELD_STATE, {&fluid->block->next_id}, NULL},
+        {"Rebuilds", "-", FIELD_INT64, 1, FIELD_STATE, {&fluid->rebuilds}, NULL},
+    };
+    memcpy(fluid->state_fields, fields, sizeof fields);
+    fluid->state = (struct field_group){.name = "fluid-state",
+                                        .owner = fluid,
+                                        .count = &field_one,
+                                        .fields = fluid->state_fields,
+                                        .n_fields = sizeof fields / sizeof *fields};
+    return particles_add_field(fluid->block, "ListedPosition", "m", 3, FIELD_STATE, fluid->listed);
+}
+
 static int fluid_build(struct fluid *fluid, const struct fluid_parts *parts)
 {
     const struct model *model = fluid->model;
@@ -180,6 +219,7 @@ static int fluid_build(struct fluid *fluid, const struct fluid_parts *parts)
     CHECK(fluid->type, STATUS_DECK, "%s:%d:%d: error: <fluid>: unknown formulation \"%s\"", model->path,
           model->fluid.where.line, model->fluid.where.column, model->fluid.formulation);
     CALL(particles_create(&fluid->block, "fluid", model->dim, 1024));
+    CALL(state_register(fluid));
     view_fill(fluid);
     double reach = fluid->view.kernel.support + fluid->skin;
     /* rows of about 3.4 spacings in 2-D and 2.8 in 3-D: long clusters without many idle candidates */
@@ -230,6 +270,7 @@ void fluid_destroy(struct fluid *fluid)
     for (size_t k = 0; k < fluid->n_openings; ++k) {
         fluid->openings[k].type->destroy(&fluid->openings[k]);
         memory_free(fluid->openings[k].zone);
+        memory_free((char *)fluid->openings[k].state.name);
     }
     if (fluid->type)
         fluid->type->destroy(fluid);
@@ -256,7 +297,7 @@ static int penetrated_put_back(struct fluid *fluid, bool *moved)
 {
     for (size_t k = 0; k < fluid->n_boundaries; ++k) {
         struct boundary *b = fluid->boundaries[k];
-        long before = b->put_back_count;
+        const int64_t before = b->put_back_count;
         if (b->type->put_back)
             CALL(b->type->put_back(b, &fluid->view, fluid->block));
         *moved |= b->put_back_count > before;
@@ -303,6 +344,32 @@ int fluid_start(struct fluid *fluid, double t)
     timer_lap(fluid->timer, TIMER_FLUID, &since);
     CALL(fluid_interface(fluid, false));
     return fluid_end_step(fluid);
+}
+
+int fluid_state(struct fluid *fluid, struct field_list *list)
+{
+    CALL(field_list_add(list, &fluid->block->fields));
+    CALL(field_list_add(list, &fluid->state));
+    for (size_t k = 0; k < fluid->n_boundaries; ++k)
+        CALL(boundary_state(fluid->boundaries[k], list));
+    for (size_t k = 0; k < fluid->n_openings; ++k)
+        CALL(field_list_add(list, &fluid->openings[k].state));
+    return 0;
+}
+
+int fluid_resume(struct fluid *fluid, double t)
+{
+    const struct particles *block = fluid->block;
+    for (size_t i = 0; i < block->n; ++i)
+        CHECK(block->kind[i] <= PARTICLE_OUTFLOW &&
+                  (block->kind[i] == PARTICLE_FLUID || block->opening[i] < fluid->n_openings),
+              STATUS_IO, "the checkpoint does not fit the deck: particle %lld is of kind %d, opening %d",
+              (long long)block->id[i], block->kind[i], block->opening[i]);
+    fluid->view.dt = 0.0;
+    CALL(fluid_relist(fluid));
+    fluid->view.t = t;
+    body_force_at(fluid, t);
+    return 0;
 }
 
 double fluid_stable_step(const struct fluid *fluid)
@@ -398,6 +465,15 @@ size_t fluid_boundary_count(const struct fluid *fluid)
     return fluid->n_boundaries;
 }
 
+void fluid_openings_count(const struct fluid *fluid, int64_t *born, int64_t *removed)
+{
+    *born = *removed = 0;
+    for (size_t k = 0; k < fluid->n_openings; ++k) {
+        *born += fluid->openings[k].born;
+        *removed += fluid->openings[k].removed;
+    }
+}
+
 const struct boundary *fluid_boundary(const struct fluid *fluid, size_t index)
 {
     return fluid->boundaries[index];
@@ -408,7 +484,7 @@ const char *fluid_isa(const struct fluid *fluid)
     return fluid->isa;
 }
 
-long fluid_rebuilds(const struct fluid *fluid)
+int64_t fluid_rebuilds(const struct fluid *fluid)
 {
     return fluid->rebuilds;
 }

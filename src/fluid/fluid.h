@@ -30,6 +30,13 @@ void fluid_destroy(struct fluid *fluid);
 /** The evaluation at @p t = 0 only; never after a resume. */
 int fluid_start(struct fluid *fluid, double t);
 
+/** Add everything that the next step reads of the fluid, its walls and openings. */
+int fluid_state(struct fluid *fluid, struct field_list *list);
+
+/** Go on from state fields that have been filled at the end of a step at time @p t: makes the lists of the
+ * last rebuild again, evaluates nothing. Returns a status (STATUS_IO: the fields contradict each other). */
+int fluid_resume(struct fluid *fluid, double t);
+
 /** Largest stable step by paper 000 eq. 25 from the last evaluation, s. */
 double fluid_stable_step(const struct fluid *fluid);
 
@@ -53,6 +60,8 @@ const struct particles *fluid_particles(const struct fluid *fluid);
 const struct fluid_view *fluid_view(const struct fluid *fluid);
 size_t fluid_boundary_count(const struct fluid *fluid);
 const struct boundary *fluid_boundary(const struct fluid *fluid, size_t index);
+/** Particles born and removed at openings so far. */
+void fluid_openings_count(const struct fluid *fluid, int64_t *born, int64_t *removed);
 /** Fields of the moving block in the order of the output: Density and Mass first (ParaView's SPH filters
  * preselect them), then SmoothingLength, Velocity, Pressure, Id, and the optional Acceleration, Kind, Support
  * (sum V W), Vorticity. The group belongs to the fluid; its pointers are fresh until the next step. */
@@ -62,8 +71,10 @@ const struct field_group *fluid_output(struct fluid *fluid);
 const char *fluid_isa(const struct fluid *fluid);
 /** Instruction set that "auto" stands for on this machine. */
 const char *fluid_isa_best(void);
+/** Whether this program and this machine have the instruction set @p name. */
+bool fluid_isa_available(const char *name);
 /** How often the lists were rebuilt. */
-long fluid_rebuilds(const struct fluid *fluid);
+int64_t fluid_rebuilds(const struct fluid *fluid);
 /** Bytes of particle and neighbour data. */
 size_t fluid_bytes(const struct fluid *fluid);
 

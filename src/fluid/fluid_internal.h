@@ -28,8 +28,10 @@ struct fluid {
     struct fluid_wall_forces *wall_forces; /**< one per boundary */
     size_t n_openings;
     struct open_boundary *openings;
-    double skin;  /**< of the lists, m */
-    double drift; /**< how far a particle may have moved since the lists were made, m */
+    double skin;       /**< of the lists, m */
+    double drift;      /**< how far a particle may have moved since the lists were made, m */
+    double list_time;  /**< when they were made, s */
+    double *listed[3]; /**< places of the particles then */
     uint32_t *order;
     size_t order_capacity;
     uint8_t *dead;
@@ -40,9 +42,9 @@ struct fluid {
     size_t *force_capacity;
     struct timer *timer;
     const char *isa;
-    long rebuilds;
-    struct field_group output;
-    struct field output_fields[16];
+    int64_t rebuilds;
+    struct field_group output, state;
+    struct field output_fields[16], state_fields[4];
 };
 
 /** A fluid formulation. Wall sweeps are called with the boundary's neighbours gathered; @c a of
@@ -73,6 +75,9 @@ int fluid_wall_forces(struct fluid *fluid, size_t b);
 
 /** Sort, lists of fluid, walls and openings (fluid_lists.c). */
 int fluid_rebuild(struct fluid *fluid);
+
+/** The same lists once more, from what the state remembers of the last rebuild. */
+int fluid_relist(struct fluid *fluid);
 
 extern const struct fluid_type fluid_transport_velocity;
 

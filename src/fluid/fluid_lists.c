@@ -58,6 +58,19 @@ static int block_recycle(struct fluid *fluid)
     return block_wrap(fluid);
 }
 
+/** Lists of fluid, walls and openings for sorted particles and walls where they are. */
+static int lists_make(struct fluid *fluid)
+{
+    const double *x[3] = {fluid->block->x[0], fluid->block->x[1], fluid->block->x[2]};
+    CALL(neighbour_list_make(&fluid->list, &fluid->grid, x, fluid->block->n,
+                             fluid->view.kernel.support + fluid->skin));
+    for (size_t k = 0; k < fluid->n_boundaries; ++k)
+        CALL(fluid->boundaries[k]->type->list(fluid->boundaries[k], &fluid->view));
+    for (size_t k = 0; k < fluid->n_openings; ++k)
+        CALL(fluid->openings[k].type->list(&fluid->openings[k], &fluid->view));
+    return 0;
+}
+
 int fluid_rebuild(struct fluid *fluid)
 {
     struct particles *block = fluid->block;
@@ -75,20 +88,50 @@ int fluid_rebuild(struct fluid *fluid)
     const double *x[3] = {block->x[0], block->x[1], block->x[2]};
     CALL(cell_grid_sort(&fluid->grid, x, block->n, fluid->order));
     CALL(particles_permute(block, fluid->order, block->n));
-    for (int k = 0; k < 3; ++k)
-        x[k] = block->x[k];
-    CALL(neighbour_list_make(&fluid->list, &fluid->grid, x, block->n,
-                             fluid->view.kernel.support + fluid->skin));
+    for (int k = 0; k < fluid->model->dim; ++k)
+        memcpy(fluid->listed[k], block->x[k], block->n * sizeof(double));
+    fluid->list_time = fluid->view.t;
     fluid->drift = 0.0;
     for (size_t k = 0; k < fluid->n_boundaries; ++k) {
         struct boundary *b = fluid->boundaries[k];
-        for (size_t s = 0; s < b->n_surfaces; ++s)
-            surface_at(b->surfaces[s], fluid->view.t);
-        CALL(b->type->list(b, &fluid->view));
         b->drift = 0.0;
+        for (size_t s = 0; s < b->n_surfaces; ++s) {
+            surface_at(b->surfaces[s], fluid->view.t);
+            surface_mark(b->surfaces[s]);
+        }
     }
-    for (size_t k = 0; k < fluid->n_openings; ++k)
-        CALL(fluid->openings[k].type->list(&fluid->openings[k], &fluid->view));
     ++fluid->rebuilds;
+    return lists_make(fluid);
+}
+
+/** Exchange the particles' places with those of the last rebuild. */
+static void places_swap(struct fluid *fluid)
+{
+    struct particles *block = fluid->block;
+    const size_t size = block->n * sizeof(double);
+    for (int k = 0; k < fluid->model->dim; ++k) {
+        memcpy(block->scratch, block->x[k], size);
+        memcpy(block->x[k], fluid->listed[k], size);
+        memcpy(fluid->listed[k], block->scratch, size);
+    }
+}
+
+int fluid_relist(struct fluid *fluid)
+{
+    struct particles *block = fluid->block;
+    const double *x[3] = {block->x[0], block->x[1], block->x[2]};
+    places_swap(fluid);
+    CALL(memory_grow((void **)&fluid->order, &fluid->order_capacity, block->n, sizeof *fluid->order));
+    CALL(cell_grid_sort(&fluid->grid, x, block->n, fluid->order));
+    for (size_t i = 0; i < block->n; ++i)
+        CHECK(fluid->order[i] == i, STATUS_IO,
+              "the checkpoint does not fit the deck: its particles are not sorted by the deck's cells");
+    fluid->view.t = fluid->list_time;
+    for (size_t k = 0; k < fluid->n_boundaries; ++k)
+        for (size_t s = 0; s < fluid->boundaries[k]->n_surfaces; ++s)
+            surface_recall(fluid->boundaries[k]->surfaces[s], fluid->list_time);
+    CALL(lists_make(fluid));
+    places_swap(fluid);
+    fluid->grid.moved = fluid->drift;
     return 0;
 }

@@ -59,6 +59,16 @@ const char *fluid_isa_best(void)
     return "baseline";
 }
 
+bool fluid_isa_available(const char *name)
+{
+    struct isa list[3];
+    size_t n = isa_list(list);
+    for (size_t k = 0; k < n; ++k)
+        if (list[k].available && !strcmp(list[k].name, name))
+            return true;
+    return false;
+}
+
 static int sweeps_choose(struct fluid *fluid, struct transport_velocity *tv)
 {
     struct isa list[3];

@@ -71,6 +71,15 @@ static int fields_create(struct particles *particles)
     return 0;
 }
 
+// For a checkpoint, which then writes every field that is state.
+static int fields_resize(void *owner, size_t count)
+{
+    struct particles *particles = owner;
+    CALL(particles_reserve(particles, count));
+    particles->n = count;
+    return 0;
+}
+
 int particles_create(struct particles **particles, const char *name, int dim, size_t capacity)
 {
     *particles = NULL;
@@ -79,6 +88,7 @@ int particles_create(struct particles **particles, const char *name, int dim, si
     block->dim = dim;
     block->fields.owner = block;
     block->fields.count = &block->n;
+    block->fields.resize = fields_resize;
     block->fields.name = memory_text(name);
     int status = block->fields.name ? 0 : STATUS_MEMORY;
     if (!status)
@@ -115,6 +125,13 @@ int particles_add_field(struct particles *particles, const char *name, const cha
           "particles %s: field %s has %d components; 1 or 3 are possible", particles->fields.name, name,
           components);
     return field_add(particles, name, unit, FIELD_DOUBLE, components, flags, data);
+}
+
+void particles_add_flags(struct particles *particles, const char *name, unsigned flags)
+{
+    for (size_t f = 0; f < particles->fields.n_fields; ++f)
+        if (!strcmp(particles->fields.fields[f].name, name))
+            particles->fields.fields[f].flags |= flags;
 }
 
 int particles_reserve(struct particles *particles, size_t capacity)

@@ -40,6 +40,9 @@ void particles_destroy(struct particles *particles);
 int particles_add_field(struct particles *particles, const char *name, const char *unit, int components,
                         unsigned flags, double **data);
 
+/** Give a registered field more flags (FIELD_STATE: something reads it across steps). */
+void particles_add_flags(struct particles *particles, const char *name, unsigned flags);
+
 /** Make room for @p capacity particles; all arrays may move (registered pointers are refreshed). */
 int particles_reserve(struct particles *particles, size_t capacity);
 

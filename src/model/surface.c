@@ -57,6 +57,7 @@ static int allocate(struct surface *s)
     CALL(surface_motion_create(&s->level[1], n));
     CALL(surface_motion_create(&s->now, n));
     CALL(surface_motion_create(&s->trial, n));
+    CHECK_MEMORY(s->listed = memory_create(n, sizeof *s->listed));
     CHECK_MEMORY(s->load = memory_create(n, sizeof *s->load));
     CHECK_MEMORY(s->load_previous = memory_create(n, sizeof *s->load_previous));
     CHECK_MEMORY(s->impulse = memory_create(n, sizeof *s->impulse));
@@ -109,15 +110,15 @@ static int fill_displacement(const void *owner, const struct field *field, void 
 
 static int register_fields(struct surface *s)
 {
+    /* motion is prescribed, or follows from the solids' state; lists are made for a place of the past */
+    const unsigned listed = s->moving ? FIELD_STATE : 0;
     const struct field list[] = {
-        {"Place", "m", FIELD_DOUBLE, 3, FIELD_STATE, {s->level[1].x}, NULL},
         {"Displacement", "m", FIELD_DOUBLE, 3, FIELD_OUTPUT, {NULL}, fill_displacement},
-        {"Velocity", "m/s", FIELD_DOUBLE, 3, FIELD_STATE | FIELD_OUTPUT, {s->level[1].v}, NULL},
-        {"Acceleration", "m/s^2", FIELD_DOUBLE, 3, FIELD_STATE | FIELD_OUTPUT, {s->level[1].a}, NULL},
+        {"Velocity", "m/s", FIELD_DOUBLE, 3, FIELD_OUTPUT, {s->level[1].v}, NULL},
+        {"Acceleration", "m/s^2", FIELD_DOUBLE, 3, FIELD_OUTPUT, {s->level[1].a}, NULL},
         {"Load", "N", FIELD_DOUBLE, 3, FIELD_OUTPUT, {s->load}, NULL},
         {"LoadPrevious", "N", FIELD_DOUBLE, 3, FIELD_STATE, {s->load_previous}, NULL},
-        {"MeanVelocity", "m/s", FIELD_DOUBLE, 3, FIELD_STATE, {s->now.v}, NULL},
-        {"MeanAcceleration", "m/s^2", FIELD_DOUBLE, 3, FIELD_STATE, {s->now.a}, NULL},
+        {"ListedPlace", "m", FIELD_DOUBLE, 3, listed, {s->listed}, NULL},
     };
     memcpy(s->field_list, list, sizeof list);
     char *name = memory_print("surface-%s", s->definition->name);
@@ -138,14 +139,15 @@ int surface_create(struct surface **surface, const struct model *model, int inde
     s->n_points = facets ? d->built.n_points : 1;
     s->n_facets = facets ? d->built.n_facets : 0;
     int status = allocate(s);
-    if (!status)
+    if (!status) {
+        fill_definition(s);
+        s->moving = s->coupled || motion_moves(&d->motion);
         status = register_fields(s);
+    }
     if (status) {
         surface_destroy(s);
         return status;
     }
-    fill_definition(s);
-    s->moving = s->coupled || motion_moves(&d->motion);
     place_mesh_points(s, model, &s->level[1]);
     prescribe(s, t, &s->level[1]);
     surface_motion_copy(&s->level[0], &s->level[1], s->n_points);
@@ -167,6 +169,7 @@ void surface_destroy(struct surface *surface)
     surface_motion_reset(&surface->level[1]);
     surface_motion_reset(&surface->now);
     surface_motion_reset(&surface->trial);
+    memory_free(surface->listed);
     memory_free(surface->load);
     memory_free(surface->load_previous);
     memory_free(surface->impulse);
@@ -212,6 +215,26 @@ void surface_at(struct surface *surface, double t)
             }
     }
     surface->now.t = t;
+}
+
+void surface_mark(struct surface *surface)
+{
+    memcpy(surface->listed, surface->now.x, surface->n_points * sizeof *surface->listed);
+}
+
+void surface_recall(struct surface *surface, double t)
+{
+    if (surface->moving)
+        memcpy(surface->now.x, surface->listed, surface->n_points * sizeof *surface->listed);
+    surface->now.t = t;
+}
+
+void surface_resume(struct surface *surface, double t)
+{
+    struct surface_motion *const others[] = {&surface->level[0], &surface->now, &surface->trial};
+    prescribe(surface, t, &surface->level[1]);
+    for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
+        surface_motion_copy(others[k], &surface->level[1], surface->n_points);
 }
 
 void surface_clear_load(struct surface *surface)

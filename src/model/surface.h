@@ -41,15 +41,16 @@ struct surface {
     bool coupled;        /**< some point is moved by a solid */
     bool moving;         /**< coupled, or its prescribed motion moves */
     enum surface_rule rule;
-    struct surface_motion level[2];                        /**< start and end of the step */
-    struct surface_motion now;                             /**< as evaluated by surface_at */
-    struct surface_motion trial;                           /**< the solid's answer */
+    struct surface_motion level[2]; /**< start and end of the step */
+    struct surface_motion now;      /**< as evaluated by surface_at */
+    struct surface_motion trial;    /**< the solid's answer */
+    double (*listed)[3];            /**< places when the lists of near particles were made (surface_mark) */
     double (*load)[3], (*load_previous)[3], (*impulse)[3]; /**< N, N, N s (2-D: per metre of depth) */
     double moment[3]; /**< analytic surfaces: of the load about the point, N m */
     size_t n_added_mass, added_mass_capacity;
     struct added_mass_contact *added_mass;
     struct field_group fields; /**< named "surface-NAME" */
-    struct field field_list[8];
+    struct field field_list[6];
 };
 
 /** Build surface @p index of the model at time @p t (prescribed points at their places, mesh points at X plus
@@ -64,6 +65,16 @@ void surface_open(struct surface *surface, double t1);
 /** Fill @c now for time @p t: linear interpolation of x, v, a between the levels (the end times give the
  * levels bit for bit). */
 void surface_at(struct surface *surface, double t);
+
+/** Remember the places @c now: lists are made for them. */
+void surface_mark(struct surface *surface);
+
+/** Put @c now back to the places that were remembered at time @p t, to make the same lists once more. */
+void surface_recall(struct surface *surface, double t);
+
+/** Go on from a checkpoint at the end of a step at time @p t: prescribed points at both levels, trial and
+ * now; points of solids follow from solid_resume. */
+void surface_resume(struct surface *surface, double t);
 
 /** load := 0, moment := 0. */
 void surface_clear_load(struct surface *surface);

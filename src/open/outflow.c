@@ -24,6 +24,7 @@ static int outflow_create(struct open_boundary *open, const struct model *model,
     struct outflow *outflow = memory_create(1, sizeof *outflow);
     CHECK_MEMORY(outflow);
     open->data = outflow;
+    open->reads_density = definition->velocity_rule == OPEN_CHARACTERISTIC;
     size_t total = 1;
     for (int k = 0; k < 3; ++k) {
         double extent =

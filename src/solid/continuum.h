@@ -18,7 +18,7 @@ struct continuum_nodes {
     double (*f_internal)[3], (*f_external)[3]; /**< external: loads, body forces, interface */
 };
 
-enum { CONTINUUM_NODE_FIELDS = 10, CONTINUUM_CELL_FIELDS = 3, CONTINUUM_STATE_FIELDS = 4 };
+enum { CONTINUUM_NODE_FIELDS = 10, CONTINUUM_CELL_FIELDS = 3, CONTINUUM_STATE_FIELDS = 3 };
 
 struct continuum {
     const struct solid *solid;
@@ -66,10 +66,8 @@ struct continuum {
     double factor_dt;      /**< and the step; 0: none */
     int64_t factor_age;    /**< steps since */
     int64_t corrections;   /**< in this step */
-    int64_t steps;
     double external_work;
 
-    size_t one; /**< number of items of the state group */
     struct field_group node_group, cell_group, state_group;
     char *node_group_name, *cell_group_name, *state_group_name;
     struct field node_fields[CONTINUUM_NODE_FIELDS], cell_fields[CONTINUUM_CELL_FIELDS],
@@ -101,6 +99,8 @@ int continuum_report_inverted(const struct continuum *continuum, double t);
 /* continuum_step.c */
 
 int continuum_start(struct solid *solid);
+void continuum_load(struct solid *solid);
+int continuum_resume(struct solid *solid);
 int continuum_begin_step(struct solid *solid);
 int continuum_predict(struct solid *solid);
 int continuum_solve(struct solid *solid);

@@ -74,7 +74,7 @@ int continuum_fields(struct continuum *continuum)
         vector_field("InternalForce", newton, FIELD_STATE, state->f_internal),
         vector_field("ExternalForce", newton, FIELD_STATE, state->f_external),
         vector_field("FactorDisplacement", "m", FIELD_STATE, continuum->factor_d),
-        vector_field("Position", "m", FIELD_STATE, continuum->x),
+        vector_field("Position", "m", 0, continuum->x),
     };
     const struct field cell_fields[CONTINUUM_CELL_FIELDS] = {
         cell_field("CauchyStress", "Pa", 6),
@@ -82,7 +82,6 @@ int continuum_fields(struct continuum *continuum)
         cell_field("StrainEnergy", "J/m^3", 1),
     };
     const struct field state_fields[CONTINUUM_STATE_FIELDS] = {
-        scalar_field("Steps", "-", FIELD_INT64, &continuum->steps),
         scalar_field("FactorAge", "-", FIELD_INT64, &continuum->factor_age),
         scalar_field("FactorStep", "s", FIELD_DOUBLE, &continuum->factor_dt),
         scalar_field("ExternalWork", joule, FIELD_DOUBLE, &continuum->external_work),
@@ -95,15 +94,21 @@ int continuum_fields(struct continuum *continuum)
     continuum->state_group_name = memory_print("solid-%s-state", continuum->definition->name);
     if (!continuum->node_group_name || !continuum->cell_group_name || !continuum->state_group_name)
         return STATUS_MEMORY;
-    continuum->one = 1;
-    continuum->node_group =
-        (struct field_group){continuum->node_group_name, continuum, &continuum->mesh->n_nodes,
-                             continuum->node_fields, CONTINUUM_NODE_FIELDS};
-    continuum->cell_group =
-        (struct field_group){continuum->cell_group_name, continuum, &continuum->mesh->n_elements,
-                             continuum->cell_fields, CONTINUUM_CELL_FIELDS};
-    continuum->state_group = (struct field_group){continuum->state_group_name, continuum, &continuum->one,
-                                                  continuum->state_fields, CONTINUUM_STATE_FIELDS};
+    continuum->node_group = (struct field_group){.name = continuum->node_group_name,
+                                                 .owner = continuum,
+                                                 .count = &continuum->mesh->n_nodes,
+                                                 .fields = continuum->node_fields,
+                                                 .n_fields = CONTINUUM_NODE_FIELDS};
+    continuum->cell_group = (struct field_group){.name = continuum->cell_group_name,
+                                                 .owner = continuum,
+                                                 .count = &continuum->mesh->n_elements,
+                                                 .fields = continuum->cell_fields,
+                                                 .n_fields = CONTINUUM_CELL_FIELDS};
+    continuum->state_group = (struct field_group){.name = continuum->state_group_name,
+                                                  .owner = continuum,
+                                                  .count = &field_one,
+                                                  .fields = continuum->state_fields,
+                                                  .n_fields = CONTINUUM_STATE_FIELDS};
     return 0;
 }
 

@@ -123,6 +123,27 @@ static int start_acceleration(struct continuum *continuum)
     return 0;
 }
 
+/** Current places from the state. */
+static void places_take(struct continuum *continuum)
+{
+    for (size_t a = 0; a < continuum->mesh->n_nodes; a++)
+        for (int i = 0; i < 3; i++)
+            continuum->x[a][i] = continuum->mesh->X[a][i] + continuum->state.d[a][i];
+}
+
+/** Places, and the attached surfaces at both levels and in the trial, from the state. */
+static void surfaces_take(struct continuum *continuum)
+{
+    const struct solid *solid = continuum->solid;
+    const struct continuum_nodes *state = &continuum->state;
+    places_take(continuum);
+    move_surfaces(continuum, state, true, true);
+    for (size_t k = 0; k < solid->n_attachments; k++)
+        attachment_move(&solid->attachments[k], (const double(*)[3])continuum->mesh->X,
+                        (const double(*)[3])state->d, (const double(*)[3])state->v,
+                        (const double(*)[3])state->a, &solid->attachments[k].surface->level[0]);
+}
+
 int continuum_start(struct solid *solid)
 {
     struct continuum *continuum = solid->data;
@@ -143,14 +164,21 @@ int continuum_start(struct solid *solid)
     if (!(solid->model->fluid.present && solid->n_attachments > 0))
         CALL(start_acceleration(continuum));
     memcpy(continuum->a_before, state->a, vector_size(continuum));
-    for (size_t a = 0; a < continuum->mesh->n_nodes; a++)
-        for (int i = 0; i < 3; i++)
-            continuum->x[a][i] = continuum->mesh->X[a][i] + state->d[a][i];
-    move_surfaces(continuum, state, true, true);
-    for (size_t k = 0; k < solid->n_attachments; k++)
-        attachment_move(&solid->attachments[k], (const double(*)[3])continuum->mesh->X,
-                        (const double(*)[3])state->d, (const double(*)[3])state->v,
-                        (const double(*)[3])state->a, &solid->attachments[k].surface->level[0]);
+    surfaces_take(continuum);
+    return 0;
+}
+
+void continuum_load(struct solid *solid)
+{
+    struct continuum *continuum = solid->data;
+    external_forces(continuum, (const double(*)[3])continuum->f_given, continuum->state.f_external);
+}
+
+int continuum_resume(struct solid *solid)
+{
+    struct continuum *continuum = solid->data;
+    continuum->factored = false; /* made again for factor_d when it is needed */
+    surfaces_take(continuum);
     return 0;
 }
 
@@ -169,10 +197,6 @@ static void newmark(struct continuum *continuum)
 int continuum_begin_step(struct solid *solid)
 {
     struct continuum *continuum = solid->data;
-    if (continuum->steps == 0) { /* the fluid's first evaluation came after solid_start */
-        given_loads(continuum, solid->t, continuum->f_given);
-        external_forces(continuum, (const double(*)[3])continuum->f_given, continuum->state.f_external);
-    }
     given_loads(continuum, solid->t + solid->dt, continuum->f_given);
     for (size_t k = 0; k < 3 * continuum->mesh->n_nodes; k++)
         flat(continuum->trial.a)[k] = 2 * flat(continuum->state.a)[k] - flat(continuum->a_before)[k];
@@ -414,7 +438,6 @@ int continuum_accept(struct solid *solid)
     for (size_t a = 0; a < continuum->mesh->n_nodes; a++)
         for (int i = 0; i < 3; i++)
             continuum->x[a][i] = continuum->mesh->X[a][i] + state->d[a][i];
-    continuum->steps++;
     continuum->factor_age++;
     move_surfaces(continuum, state, true, true);
     return 0;

@@ -75,6 +75,24 @@ int solid_start(struct solid *solid, double t)
     return solid->type->start(solid);
 }
 
+void solid_load(struct solid *solid)
+{
+    solid->type->load(solid);
+}
+
+int solid_state(const struct solid *solid, struct field_list *list)
+{
+    CALL(field_list_add(list, solid->type->node_fields(solid)));
+    CALL(field_list_add(list, solid->type->cell_fields(solid)));
+    return field_list_add(list, solid->type->state_fields(solid));
+}
+
+int solid_resume(struct solid *solid, double t)
+{
+    solid->t = t;
+    return solid->type->resume(solid);
+}
+
 double solid_stable_step(const struct solid *solid)
 {
     return solid->type->stable_step(solid);

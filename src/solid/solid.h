@@ -35,6 +35,17 @@ int solid_attach(struct solid *solid, struct surface *surface);
  * from equilibrium. */
 int solid_start(struct solid *solid, double t);
 
+/** Take in the loads that the fluid's first evaluation put on the attached surfaces; once, after
+ * solid_start. */
+void solid_load(struct solid *solid);
+
+/** Add everything that the next step reads of the solid. */
+int solid_state(const struct solid *solid, struct field_list *list);
+
+/** Go on from state fields that have been filled at the end of a step at time @p t: both levels and the trial
+ * of the attached surfaces follow. */
+int solid_resume(struct solid *solid, double t);
+
 /** Largest stable step (implicit: infinity), s. */
 double solid_stable_step(const struct solid *solid);
 

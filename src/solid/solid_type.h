@@ -15,6 +15,8 @@ struct solid_type {
     int (*create)(struct solid *solid);
     void (*destroy)(struct solid *solid);
     int (*start)(struct solid *solid);
+    void (*load)(struct solid *solid);
+    int (*resume)(struct solid *solid);
     double (*stable_step)(const struct solid *solid);
     int (*begin_step)(struct solid *solid);
     int (*predict)(struct solid *solid);

@@ -6,6 +6,23 @@
 
 #include <string.h>
 
+static int state_register(struct boundary *boundary)
+{
+    const struct field fields[] = {
+        {"Drift", "m", FIELD_DOUBLE, 1, FIELD_STATE, {&boundary->drift}, NULL},
+        {"PutBack", "-", FIELD_INT64, 1, FIELD_STATE, {&boundary->put_back_count}, NULL},
+    };
+    char *name = memory_print("wall-%s-state", boundary->wall->name);
+    CHECK_MEMORY(name);
+    memcpy(boundary->state_fields, fields, sizeof fields);
+    boundary->state = (struct field_group){.name = name,
+                                           .owner = boundary,
+                                           .count = &field_one,
+                                           .fields = boundary->state_fields,
+                                           .n_fields = boundary->type->put_back ? 2 : 1};
+    return 0;
+}
+
 int boundary_create(struct boundary **boundary, const struct model *model, int index,
                     struct surface **surfaces, const struct fluid_view *view,
                     const struct boundary_type *const *types, size_t n_types)
@@ -28,6 +45,7 @@ int boundary_create(struct boundary **boundary, const struct model *model, int i
         b->coupled |= b->surfaces[s]->coupled;
     }
     b->moving |= motion_moves(&b->wall->motion);
+    CALL(state_register(b));
     return b->type->create(b, model, view);
 }
 
@@ -40,7 +58,14 @@ void boundary_destroy(struct boundary *boundary)
     memory_free(boundary->surfaces);
     memory_free(boundary->near);
     memory_free(boundary->kernel_sum);
+    memory_free((char *)boundary->state.name);
     memory_free(boundary);
+}
+
+int boundary_state(struct boundary *boundary, struct field_list *list)
+{
+    CALL(field_list_add(list, &boundary->state));
+    return boundary->type->state ? boundary->type->state(boundary, list) : 0;
 }
 
 int boundary_prepare(struct boundary *boundary, const struct fluid_view *view)

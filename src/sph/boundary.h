@@ -52,8 +52,11 @@ struct boundary_type {
     /** Build from boundary->wall and ->surfaces. */
     int (*create)(struct boundary *boundary, const struct model *model, const struct fluid_view *view);
     void (*destroy)(struct boundary *boundary);
-    /** After each sort of the moving block: find the particles within range + skin (near). drift := 0. */
+    /** After each sort of the moving block: find the particles within range + skin (near) of where the wall
+     * stands at view->t and its surfaces @c now. A resumed run calls it once more for the same places. */
     int (*list)(struct boundary *boundary, const struct fluid_view *view);
+    /** Add field groups with what the treatment carries from step to step; may be NULL. */
+    int (*state)(struct boundary *boundary, struct field_list *list);
     /** Once a step after the drift: put penetrated particles back (3-D sliding walls); may be NULL. */
     int (*put_back)(struct boundary *boundary, const struct fluid_view *view, struct particles *particles);
     /** Surfaces have been evaluated (now): projection and shares, or moving the wall particles; fills
@@ -86,11 +89,14 @@ struct boundary {
     size_t n_near, near_capacity;
     uint32_t *near;                 /**< indices of near particles in the moving block, ascending */
     double *kernel_sum;             /**< per near particle: sum over the wall of share_density W, 1/m^dim */
-    double drift;                   /**< how far the wall may have moved since the lists were made, m */
+    double drift;                   /**< how far the wall may have moved since the lists were made, m; the
+                                       fluid sets it to 0 then */
     const double *wall_x[3];        /**< places of wall particles for the output, or NULL */
     struct field_group wall_fields; /**< of the wall particles */
-    struct field wall_field_list[4];
-    long put_back_count; /**< particles put back so far */
+    struct field wall_field_list[5];
+    int64_t put_back_count; /**< particles put back so far */
+    struct field_group state;
+    struct field state_fields[2];
 };
 
 /** Create the boundary of wall @p index; @p surfaces are all surfaces of the model, by index. */
@@ -98,6 +104,9 @@ int boundary_create(struct boundary **boundary, const struct model *model, int i
                     struct surface **surfaces, const struct fluid_view *view,
                     const struct boundary_type *const *types, size_t n_types);
 void boundary_destroy(struct boundary *boundary);
+
+/** Add everything that the boundary carries from step to step. */
+int boundary_state(struct boundary *boundary, struct field_list *list);
 
 /** Evaluate the surfaces at view->t, then prepare. */
 int boundary_prepare(struct boundary *boundary, const struct fluid_view *view);

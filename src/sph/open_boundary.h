@@ -34,7 +34,10 @@ struct open_boundary {
     size_t n_zone, zone_capacity;
     uint32_t *zone; /**< indices of zone particles, ascending */
     void *data;
-    long born, removed;
+    int64_t born, removed; /**< particles so far */
+    struct field_group state;
+    struct field state_fields[2];
+    bool reads_density; /**< set by create: velocities reads rho and p of the step before */
 };
 
 #endif

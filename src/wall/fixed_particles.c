@@ -12,6 +12,9 @@
 #include <math.h>
 #include <string.h>
 
+/** How far outside a periodic side a wall particle may lie, of the period. */
+#define WRAP_SLACK 1e-9
+
 /** One wall particle within reach of a near particle. */
 struct fixed_pair {
     uint32_t wall;
@@ -20,6 +23,7 @@ struct fixed_pair {
 
 struct fixed_particles {
     size_t n;
+    char *group_name;           /**< "wall-NAME" */
     double (*X)[3];             /**< reference places */
     int32_t *surface;           /**< per particle: which of boundary->surfaces, -1: the wall's own motion */
     int32_t *load_point;        /**< per particle: point of the surface that takes its load, -1: none */
@@ -193,17 +197,24 @@ static void particles_move(struct boundary *boundary, double t)
     }
 }
 
-/** Particles of a moving wall that left through a periodic side come in through the other. */
-static void particles_wrap(struct fixed_particles *f)
+/** Particles of a moving wall that left through a periodic side come in through the other. Those on the side
+ * to rounding stay, so that a resumed run, which does this twice, finds them in the same place. */
+static void particles_wrap(struct boundary *boundary, double t)
 {
+    struct fixed_particles *f = boundary->data;
+    bool moved = false;
     for (int d = 0; d < f->grid.dim; ++d) {
-        const double low = f->grid.lower[d], length = f->grid.upper[d] - low;
+        const double low = f->grid.lower[d], high = f->grid.upper[d], length = high - low;
+        const double slack = WRAP_SLACK * length;
         for (size_t k = 0; k < f->n && f->grid.periodic[d]; ++k) {
-            const double periods = floor((f->x[d][k] - low) / length);
-            f->wrap[d][k] -= periods * length;
-            f->x[d][k] -= periods * length;
+            if (f->x[d][k] >= low - slack && f->x[d][k] < high + slack)
+                continue;
+            f->wrap[d][k] -= floor((f->x[d][k] - low) / length) * length;
+            moved = true;
         }
     }
+    if (moved)
+        particles_move(boundary, t);
 }
 
 static void fields_register(struct boundary *boundary, struct fixed_particles *f)
@@ -215,8 +226,18 @@ static void fields_register(struct boundary *boundary, struct fixed_particles *f
     *field++ = (struct field){"Pressure", "Pa", FIELD_DOUBLE, 1, FIELD_OUTPUT, {f->p}, NULL};
     *field++ = (struct field){
         "ReactionForce", "N", FIELD_DOUBLE, 3, FIELD_OUTPUT, {f->force[0], f->force[1], f->force[2]}, NULL};
-    boundary->wall_fields =
-        (struct field_group){boundary->wall->name, boundary, &f->n, boundary->wall_field_list, 4};
+    *field++ = (struct field){"PeriodicShift",
+                              "m",
+                              FIELD_DOUBLE,
+                              3,
+                              boundary->moving ? FIELD_STATE : 0,
+                              {f->wrap[0], f->wrap[1], f->wrap[2]},
+                              NULL};
+    boundary->wall_fields = (struct field_group){.name = f->group_name,
+                                                 .owner = boundary,
+                                                 .count = &f->n,
+                                                 .fields = boundary->wall_field_list,
+                                                 .n_fields = (size_t)(field - boundary->wall_field_list)};
     for (int d = 0; d < 3; ++d)
         boundary->wall_x[d] = f->x[d];
 }
@@ -242,6 +263,7 @@ static int fixed_particles_create(struct boundary *boundary, const struct model 
                                      ? (rest % 3 - 1) * (model->domain.upper[d] - model->domain.lower[d])
                                      : 0.0;
     particles_move(boundary, 0.0);
+    CHECK_MEMORY(f->group_name = memory_print("wall-%s", wall->name));
     fields_register(boundary, f);
     double reach = view->kernel.support + view->skin;
     return cell_grid_create(&f->grid, model->dim, model->domain.lower, model->domain.upper,
@@ -259,8 +281,9 @@ static void fixed_particles_destroy(struct boundary *boundary)
         for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
             memory_free(arrays[k]);
     }
-    void *const others[] = {f->X,     f->surface, f->load_point, f->order, f->p,         f->rho,
-                            f->pairs, f->start,   f->back_start, f->back,  f->back_near, f->marked};
+    void *const others[] = {f->group_name, f->X,         f->surface, f->load_point, f->order,
+                            f->p,          f->rho,       f->pairs,   f->start,      f->back_start,
+                            f->back,       f->back_near, f->marked};
     for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
         memory_free(others[k]);
     cell_grid_reset(&f->grid);
@@ -320,7 +343,7 @@ static int fixed_particles_list(struct boundary *boundary, const struct fluid_vi
     const double reach = view->kernel.support + view->skin;
     if (boundary->moving) {
         particles_move(boundary, view->t);
-        particles_wrap(f);
+        particles_wrap(boundary, view->t);
     }
     for (int d = 0; d < 3; ++d)
         memcpy(f->listed[d], f->x[d], f->n * sizeof(double));
@@ -356,6 +379,11 @@ static int fixed_particles_list(struct boundary *boundary, const struct fluid_vi
     for (int d = 0; d < 3; ++d)
         CALL(memory_grow((void **)&f->pair_force[d], &f->force_capacity[d], f->n_pairs, sizeof(double)));
     return pairs_turn(boundary);
+}
+
+static int fixed_particles_state(struct boundary *boundary, struct field_list *list)
+{
+    return field_list_add(list, &boundary->wall_fields);
 }
 
 /** Vector from the wall particle of a pair to fluid particle @p i; returns its squared length. */
@@ -504,6 +532,7 @@ const struct boundary_type boundary_fixed_particles = {
     .create = fixed_particles_create,
     .destroy = fixed_particles_destroy,
     .list = fixed_particles_list,
+    .state = fixed_particles_state,
     .prepare = fixed_particles_prepare,
     .close = fixed_particles_close,
     .gather = fixed_particles_gather,

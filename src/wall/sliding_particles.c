@@ -410,8 +410,6 @@ static int sliding_list(struct boundary *boundary, const struct fluid_view *view
     size_t n_pairs = 0;
     for (int k = 0; k < 3; ++k)
         s->period[k] = view->grid->periodic[k] ? view->grid->upper[k] - view->grid->lower[k] : 0.0;
-    for (size_t k = 0; k < boundary->n_surfaces; ++k)
-        surface_at(boundary->surfaces[k], view->t);
     sliding_place(boundary);
     CALL(memory_grow((void **)&s->stamp, &s->stamp_capacity, n, sizeof *s->stamp));
     CALL(memory_grow((void **)&s->mask, &s->mask_capacity, n, sizeof *s->mask));
@@ -424,9 +422,7 @@ static int sliding_list(struct boundary *boundary, const struct fluid_view *view
         if (boundary->surfaces[k]->definition->kind != SURFACE_FACETS)
             CALL(search_shape(boundary, view, k, reach, &n_pairs));
     CALL(fill_near(boundary, view, n_pairs));
-    CALL(reserve_contacts(boundary));
-    boundary->drift = 0.0;
-    return 0;
+    return reserve_contacts(boundary);
 }
 
 const struct boundary_type boundary_sliding_particles = {

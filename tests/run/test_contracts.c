@@ -247,145 +247,14 @@ static void test_arrays_are_in_tables(void **state)
         assert_true(in_table(&b->fields, arrays[k]));
     for (size_t s = 0; s < a.n_surfaces; ++s) {
         const struct surface *surface = a.surfaces[s];
-        const void *const rows[] = {surface->level[1].x, surface->level[1].v, surface->level[1].a,
-                                    surface->load, surface->load_previous};
+        const void *const rows[] = {surface->level[1].v, surface->level[1].a, surface->load,
+                                    surface->load_previous, surface->listed};
         for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k)
             assert_true(in_table(&surface->fields, rows[k]));
     }
     assert_true(in_table(solid_node_fields(a.solids[0]), solid_positions(a.solids[0])));
     assert_false(in_table(&b->fields, &a));
     assembly_reset(&a);
-}
-
-/** Copy the state fields of @p from into @p to, which has the same fields; the one called @p except becomes
- * 0. */
-static void state_copy(const struct field_group *from, const struct field_group *to, const char *except)
-{
-    assert_int_equal(from->n_fields, to->n_fields);
-    assert_int_equal(*from->count, *to->count);
-    for (size_t f = 0; f < from->n_fields; ++f) {
-        const struct field *field = &from->fields[f];
-        const size_t size = *from->count * field_size(field->type) * (size_t)field->components;
-        if (!(field->flags & FIELD_STATE))
-            continue;
-        assert_null(field->data[1]);
-        if (except && !strcmp(field->name, except))
-            memset(to->fields[f].data[0], 0, size);
-        else
-            memcpy(to->fields[f].data[0], field->data[0], size);
-    }
-}
-
-/** The same for particles, whose order differs; places have been copied before. */
-static void particle_state_copy(const struct particles *from, struct particles *to, const char *except)
-{
-    size_t *index = memory_create(from->n, sizeof *index);
-    assert_non_null(index);
-    for (size_t i = 0; i < from->n; ++i)
-        index[from->id[i]] = i;
-    for (size_t f = 0; f < from->fields.n_fields; ++f) {
-        const struct field *field = &from->fields.fields[f];
-        const size_t size = field_size(field->type);
-        const bool lost = except && !strcmp(field->name, except);
-        if (!(field->flags & FIELD_STATE) || !strcmp(field->name, "Position") || !strcmp(field->name, "Id"))
-            continue;
-        for (int c = 0; c < field->components; ++c)
-            for (size_t i = 0; i < to->n; ++i) {
-                char *value = (char *)to->fields.fields[f].data[c] + i * size;
-                memcpy(value, (const char *)field->data[c] + index[to->id[i]] * size, size);
-                if (lost)
-                    memset(value, 0, size);
-            }
-    }
-    memory_free(index);
-}
-
-/** A fresh run that goes on from the state fields of @p a, without the one called @p except of @p group. */
-static void resume(const struct assembly *a, struct assembly *b, char group, const char *except)
-{
-    beam_start(b, "fixed-particles", "scheme='fixed-point' tolerance='1e-12'", 0);
-    const struct particles *from = fluid_particles(a->fluid);
-    struct particles *to = assembly_particles(b);
-    b->t = a->t;
-    b->step = a->step;
-    state_copy(solid_node_fields(a->solids[0]), solid_node_fields(b->solids[0]),
-               group == 's' ? except : NULL);
-    state_copy(solid_state_fields(a->solids[0]), solid_state_fields(b->solids[0]), NULL);
-    for (size_t s = 0; s < a->n_surfaces; ++s) {
-        state_copy(&a->surfaces[s]->fields, &b->surfaces[s]->fields, group == 'w' ? except : NULL);
-        b->surfaces[s]->level[1].t = a->t;
-        surface_open(b->surfaces[s], a->t);
-    }
-    for (size_t i = 0; i < to->n; ++i)
-        for (size_t j = 0; j < from->n; ++j)
-            for (int k = 0; k < 2 && from->id[j] == to->id[i]; ++k)
-                to->x[k][i] = from->x[k][j];
-    assert_int_equal(fluid_start(b->fluid, a->t), 0);
-    particle_state_copy(from, assembly_particles(b), group == 'f' ? except : NULL);
-}
-
-/** Largest difference of particle and node velocities and of impulses. */
-static double difference(const struct assembly *a, const struct assembly *b)
-{
-    const struct particles *p = fluid_particles(a->fluid), *q = fluid_particles(b->fluid);
-    double worst = 0.0;
-    for (size_t i = 0; i < p->n; ++i)
-        for (size_t j = 0; j < q->n; ++j)
-            for (int k = 0; k < 2 && p->id[i] == q->id[j]; ++k)
-                worst = fmax(worst, fabs(p->u[k][i] - q->u[k][j]));
-    const double(*v)[3] = assembly_nodes(a, "Velocity"), (*w)[3] = assembly_nodes(b, "Velocity");
-    for (size_t n = 0; n < solid_mesh(a->solids[0])->n_nodes; ++n)
-        for (int k = 0; k < 2; ++k)
-            worst = fmax(worst, fabs(v[n][k] - w[n][k]));
-    for (size_t s = 0; s < a->n_surfaces; ++s)
-        for (size_t n = 0; n < a->surfaces[s]->n_points; ++n)
-            for (int k = 0; k < 2; ++k)
-                worst = fmax(worst, fabs(a->surfaces[s]->impulse[n][k] - b->surfaces[s]->impulse[n][k]));
-    return worst;
-}
-
-/** What the field tables call state is all the next step reads: a fresh run with these fields goes on like
- * the first, to the rounding of sums in another order; without one of them it does not. */
-static void test_state_is_complete(void **state)
-{
-    (void)state;
-    static const struct {
-        char group; /* fluid, solid, walls */
-        const char *name;
-        double least; /* what its loss must change */
-    } needed[] = {{'f', "Velocity", 1e-2},
-                  {'f', "Acceleration", 1e-4},
-                  {'f', "BackgroundAcceleration", 1e-6},
-                  {'s', "Displacement", 1e-4},
-                  {'s', "Velocity", 1e-4},
-                  {'s', "Acceleration", 1e-4},
-                  {'s', "InternalForce", 1e-4},
-                  {'s', "ExternalForce", 1e-4},
-                  {'s', "PreviousAcceleration", 1e-15}, /* where the iteration starts: the bits, no more */
-                  {'w', "LoadPrevious", 1e-6}};
-    struct assembly a;
-    beam_start(&a, "fixed-particles", "scheme='fixed-point' tolerance='1e-12'", 25);
-    for (size_t k = 0; k < sizeof needed / sizeof *needed; ++k) {
-        struct assembly b, c;
-        resume(&a, &b, needed[k].group, needed[k].name);
-        resume(&a, &c, 0, NULL);
-        assert_int_equal(assembly_steps(&b, 1), 0);
-        assert_int_equal(assembly_steps(&c, 1), 0);
-        const double changed = difference(&b, &c);
-        if (!(changed > needed[k].least))
-            fail_msg("without the field %s the run changes by %g only", needed[k].name, changed);
-        assembly_reset(&b);
-        assembly_reset(&c);
-    }
-    struct assembly b;
-    resume(&a, &b, 0, NULL);
-    assert_int_equal(assembly_steps(&a, 5), 0);
-    assert_int_equal(assembly_steps(&b, 5), 0);
-    const double changed = difference(&a, &b);
-    print_message("resumed from the state fields: velocities differ by %g m/s\n", changed);
-    assert_true(changed < 1e-8);
-    assembly_reset(&a);
-    assembly_reset(&b);
 }
 
 static int quiet(void **state)
@@ -401,7 +270,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_combinations),         cmocka_unit_test(test_interface_is_repeatable),
         cmocka_unit_test(test_surface_at_start),     cmocka_unit_test(test_attachment_conserves),
-        cmocka_unit_test(test_arrays_are_in_tables), cmocka_unit_test(test_state_is_complete),
+        cmocka_unit_test(test_arrays_are_in_tables),
     };
     return cmocka_run_group_tests(tests, quiet, NULL);
 }
