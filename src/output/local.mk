@@ -1,6 +1,8 @@
 # Fields, series, histories and pictures.
 libskerry_la_SOURCES += \
 	src/output/canvas.c src/output/canvas.h \
+	src/output/checkpoint.c src/output/checkpoint.h src/output/checkpoint_internal.h \
+	src/output/checkpoint_data.c src/output/checkpoint_manifest.c \
 	src/output/colour_map.c src/output/colour_map.h \
 	src/output/frame.c src/output/frame.h \
 	src/output/history.c src/output/history.h \
