@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "deck/deck_node.h"
 
@@ -17,6 +18,45 @@ static char *base_name(const char *path)
     const size_t length = strlen(name);
     const bool xml = length > 4 && strcmp(name + length - 4, ".xml") == 0;
     return memory_print("%.*s", (int)(xml ? length - 4 : length), name);
+}
+
+/** A name without "." folders and double slashes. */
+static char *plain_name(const char *name)
+{
+    char *plain = memory_text(name), *end = plain;
+    for (const char *c = name; plain && *c;) {
+        const size_t length = strcspn(c, "/");
+        if (length > 0 && !(length == 1 && *c == '.')) {
+            if (end > plain)
+                *end++ = '/';
+            memcpy(end, c, length);
+            end += length;
+        }
+        c += length + (c[length] == '/');
+    }
+    if (plain)
+        *end = '\0';
+    return plain;
+}
+
+int deck_note_input(struct deck *deck, const char *name, const char *path, const char *data, size_t size)
+{
+    struct model *model = deck->model;
+    char *plain = plain_name(name), *place = memory_text(path);
+    int status = plain && place ? 0 : STATUS_MEMORY;
+    bool listed = false;
+    for (size_t i = 0; !status && i < model->n_inputs; i++)
+        listed = listed || strcmp(model->inputs[i].name, plain) == 0;
+    if (!status && !listed)
+        status = memory_grow((void **)&model->inputs, &deck->input_capacity, model->n_inputs + 1,
+                             sizeof *model->inputs);
+    if (!status && !listed) {
+        model->inputs[model->n_inputs++] = (struct model_input){plain, place, hash_bytes(data, size), size};
+        return 0;
+    }
+    memory_free(plain);
+    memory_free(place);
+    return status;
 }
 
 /** Objects that nothing refers to are allowed, but often a slip. */
@@ -71,6 +111,10 @@ int deck_load(struct deck *deck, const char *path, size_t n_overrides, const cha
     size_t size = 0;
     CALL(file_read(path, DECK_LIMIT, &text, &size));
     int status = (deck->model = memory_create(1, sizeof *deck->model)) ? 0 : STATUS_MEMORY;
+    if (!status) {
+        const char *slash = strrchr(path, '/');
+        status = deck_note_input(deck, slash ? slash + 1 : path, path, text, size);
+    }
     if (!status)
         status = deck_parse(deck, text, size);
     memory_free(text);

@@ -178,9 +178,11 @@ static int read_point_list(struct deck *deck, const struct deck_node *node, stru
     if (file) {
         char *path = file_beside_deck(deck, node, file);
         int status = path ? file_read(path, POINT_FILE_LIMIT, &data, &size) : 0;
-        memory_free(path);
         if (status)
             deck_error(deck, node, "file", "\"%.200s\" cannot be read", file);
+        if (data && deck_note_input(deck, file, path, data, size))
+            deck->status = STATUS_MEMORY;
+        memory_free(path);
         if (!data)
             return deck->status;
     }

@@ -37,6 +37,7 @@ struct deck {
     const char *const *overrides; /**< "NAME=VALUE" */
     struct deck_node *root;
     struct model *model;
+    size_t input_capacity; /**< of model->inputs */
     struct unit_system units;
     struct expression_scope scope; /**< parameters and functions so far */
     bool spoilt;                   /**< some parameter has no value (NaN), which has been noted */
@@ -183,6 +184,10 @@ int deck_read_boundaries(struct deck *deck);
 int deck_read_coupling(struct deck *deck);
 int deck_read_output(struct deck *deck);
 void deck_read_motion(struct deck *deck, const struct deck_node *node, struct motion *motion);
+
+/** List a file among the inputs of the model unless it is there: @p name relative to the deck's folder, @p
+ * data the @p size bytes that were read from @p path. Returns 0 or STATUS_MEMORY. */
+int deck_note_input(struct deck *deck, const char *name, const char *path, const char *data, size_t size);
 
 /** Read a whole deck into deck->model with its tree kept; errors are printed. Reset in any case. */
 int deck_load(struct deck *deck, const char *path, size_t n_overrides, const char *const *overrides);

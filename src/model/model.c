@@ -102,10 +102,20 @@ static void output_reset(struct model_output *output)
     memory_free(output->virtual_particles);
 }
 
+static void inputs_reset(struct model *model)
+{
+    for (size_t i = 0; i < model->n_inputs; i++) {
+        memory_free(model->inputs[i].name);
+        memory_free(model->inputs[i].path);
+    }
+    memory_free(model->inputs);
+}
+
 void model_destroy(struct model *model)
 {
     if (!model)
         return;
+    inputs_reset(model);
     for (size_t i = 0; i < model->n_parameters; i++) {
         memory_free(model->parameters[i].name);
         memory_free(model->parameters[i].text);

@@ -9,12 +9,22 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /** The problem as plain data: what the deck said, after units and expressions; const once the deck has been
  * read. SI units throughout; 2-D problems have unit depth. Every entry knows its place in the deck. */
 
 struct location {
     int line, column; /**< in the deck; 0: not from a deck */
+};
+
+/** A file that the problem was read from. */
+struct model_input {
+    char *name; /**< of the deck: its base name, as on disk; of another file: relative to the deck's folder,
+                   as the deck writes it, without "." folders and double slashes */
+    char *path; /**< where it was read: the deck's path as given, or the deck's folder with the name */
+    uint64_t hash; /**< hash_bytes over the bytes that were read */
+    size_t size;   /**< their number */
 };
 
 struct parameter {
@@ -222,6 +232,8 @@ struct model_output {
 
 struct model {
     char *path, *name; /**< of the deck; base name without .xml */
+    size_t n_inputs;
+    struct model_input *inputs; /**< the deck itself, then every file that it names, each once */
     int dim;
     size_t n_parameters;
     struct parameter *parameters;

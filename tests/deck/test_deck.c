@@ -6,7 +6,10 @@
 #include <cmocka.h>
 
 #include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
 #include "base/log.h"
+#include "base/memory.h"
 #include "deck/deck.h"
 #include "decks.h"
 
@@ -31,12 +34,17 @@ static int teardown(void **state)
     return unlink(deck_path);
 }
 
-static void write_deck(const char *text)
+static void write_file(const char *path, const char *text)
 {
-    FILE *file = fopen(deck_path, "w");
+    FILE *file = fopen(path, "w");
     assert_non_null(file);
     assert_true(fputs(text, file) >= 0);
     assert_int_equal(fclose(file), 0);
+}
+
+static void write_deck(const char *text)
+{
+    write_file(deck_path, text);
 }
 
 /** The deck of everything with one piece replaced. */
@@ -219,6 +227,69 @@ static void test_boundaries(void **state)
     model_destroy(model);
 }
 
+static void assert_input(const struct model_input *input, const char *name, const char *path,
+                         const char *text)
+{
+    uint64_t hash;
+    size_t size;
+    assert_string_equal(input->name, name);
+    assert_int_equal(hash_file(input->path, &hash, &size), 0);
+    assert_true(input->hash == hash && input->size == size);
+    assert_true(hash == hash_bytes(text, strlen(text)) && size == strlen(text));
+    assert_true(access(path, R_OK) == 0 && hash_file(path, &hash, NULL) == 0 && input->hash == hash);
+}
+
+/** The deck and each file that it names are listed once, with what was read. */
+static void test_inputs(void **state)
+{
+    (void)state;
+    static const char near[] = "1 1 1\r\n1.2 1 1\n", far[] = "1.4 1 1 # one point";
+    const char *slash = strrchr(deck_path, '/');
+    char *folder = memory_print("%s.d", deck_path), *first = memory_print("%s/b.txt", folder),
+         *second = memory_print("%s/a.xml", folder);
+    assert_int_equal(file_make_folder(folder), 0);
+    write_file(first, near);
+    write_file(second, far);
+    char *points = memory_print("<points file='%s.d/b.txt'/></region><region><points file='./%s.d//a.xml'/>"
+                                "</region><region><points file='%s.d/./b.txt'/></region>",
+                                slash + 1, slash + 1, slash + 1);
+    write_variant("<points>1 1 1\n 1.1 1 1 # not 9 9 9\n 1.2 1 1</points></region>", points);
+    char *text = NULL;
+    size_t size;
+    assert_int_equal(file_read(deck_path, 1 << 20, &text, &size), 0);
+    struct model *model = read_deck();
+    assert_int_equal(model->fluid.n_regions, 4);
+    assert_int_equal(model->fluid.regions[3].n_points, 2);
+    assert_int_equal(model->n_inputs, 3);
+    assert_string_equal(model->inputs[0].path, deck_path);
+    assert_input(&model->inputs[0], slash + 1, deck_path, text);
+    assert_input(&model->inputs[1], first + (slash + 1 - deck_path), first, near);
+    assert_input(&model->inputs[2], second + (slash + 1 - deck_path), second, far);
+    model_destroy(model);
+    assert_true(unlink(first) == 0 && unlink(second) == 0 && rmdir(folder) == 0);
+    memory_free(text);
+    memory_free(points);
+    memory_free(first);
+    memory_free(second);
+    memory_free(folder);
+}
+
+/** A deck that names no file is its only input; its name keeps the extension. */
+static void test_input_of_deck(void **state)
+{
+    (void)state;
+    char *path = memory_print("%s.xml", deck_path);
+    struct model *model;
+    write_file(path, deck_of_everything);
+    assert_int_equal(deck_read(&model, path, 0, NULL), 0);
+    assert_int_equal(model->n_inputs, 1);
+    assert_input(&model->inputs[0], strrchr(path, '/') + 1, path, deck_of_everything);
+    assert_string_equal(model->name, strrchr(deck_path, '/') + 1);
+    model_destroy(model);
+    assert_int_equal(unlink(path), 0);
+    memory_free(path);
+}
+
 static char *show(size_t n, const char *const *overrides)
 {
     char *text = NULL;
@@ -392,10 +463,12 @@ static void test_parts_alone(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),     cmocka_unit_test(test_regions),
-                                       cmocka_unit_test(test_meshes),     cmocka_unit_test(test_surfaces),
-                                       cmocka_unit_test(test_boundaries), cmocka_unit_test(test_show),
-                                       cmocka_unit_test(test_overrides),  cmocka_unit_test(test_lists),
-                                       cmocka_unit_test(test_mistakes),   cmocka_unit_test(test_parts_alone)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_values),        cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_meshes),        cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_boundaries),    cmocka_unit_test(test_inputs),
+        cmocka_unit_test(test_input_of_deck), cmocka_unit_test(test_show),
+        cmocka_unit_test(test_overrides),     cmocka_unit_test(test_lists),
+        cmocka_unit_test(test_mistakes),      cmocka_unit_test(test_parts_alone)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
