@@ -20,32 +20,13 @@ static bool fluid_meets_solid(const struct model *model)
     return false;
 }
 
-/** The section with all its defaults, as if it had been written. */
-static struct deck_node *add_section(struct deck *deck)
-{
-    struct deck_node *node = deck_memory(deck, 1, sizeof *node);
-    if (!node)
-        return NULL;
-    struct deck_node **last = &deck->root->children;
-    while (*last && (*last)->id < SCHEMA_COUPLING)
-        last = &(*last)->next;
-    node->id = SCHEMA_COUPLING;
-    node->element = schema_element(SCHEMA_COUPLING);
-    node->where = deck->root->where;
-    node->parent = deck->root;
-    node->attributes = deck_memory(deck, schema_attribute_count(node->element), sizeof *node->attributes);
-    node->next = *last;
-    *last = node;
-    return node->attributes ? node : NULL;
-}
-
 int deck_read_coupling(struct deck *deck)
 {
     struct deck_node *node = deck_child(deck->root, SCHEMA_COUPLING);
     struct model_coupling *coupling = &deck->model->coupling;
     const bool meet = fluid_meets_solid(deck->model);
     if (!node)
-        CHECK_MEMORY(node = add_section(deck));
+        CHECK_MEMORY(node = deck_add(deck, deck->root, SCHEMA_COUPLING));
     if (!deck_has(node, "scheme"))
         deck_fill(deck, node, "scheme", "%s", meet ? "fixed-point" : "none");
     coupling->where = node->where;

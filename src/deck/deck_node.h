@@ -89,6 +89,9 @@ struct deck_node *deck_child(const struct deck_node *node, enum schema_id id);
 struct deck_node *deck_next(const struct deck_node *node);
 size_t deck_count(const struct deck_node *node, enum schema_id id);
 
+/** Add a child with all its defaults, as if it had been written. NULL: no memory. */
+struct deck_node *deck_add(struct deck *deck, struct deck_node *parent, enum schema_id id);
+
 /** Whether an attribute was given. */
 bool deck_has(const struct deck_node *node, const char *name);
 

@@ -104,9 +104,15 @@ static void read_history(struct deck *deck, const struct deck_node *node, struct
 
 int deck_read_output(struct deck *deck)
 {
-    const struct deck_node *section = deck_child(deck->root, SCHEMA_OUTPUT);
+    struct deck_node *section = deck_child(deck->root, SCHEMA_OUTPUT);
     struct model_output *output = &deck->model->output;
     const struct deck_node *fields = deck_child(section, SCHEMA_FIELDS);
+    const struct deck_node *checkpoints = deck_child(section, SCHEMA_CHECKPOINTS);
+    if (!section)
+        return deck->status; // noted already
+    if (!checkpoints)
+        CHECK_MEMORY(checkpoints = deck_add(deck, section, SCHEMA_CHECKPOINTS));
+    output->checkpoint_every = deck_real(deck, checkpoints, "every");
     if (fields)
         CALL(read_fields(deck, fields, output));
     CHECK_MEMORY(output->histories =

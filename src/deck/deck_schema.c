@@ -384,7 +384,7 @@ static const struct schema_attribute coupling_attributes[] = {
     {0}};
 
 static const struct schema_child output_children[] = {
-    {SCHEMA_FIELDS, 1, 1}, {SCHEMA_HISTORY, 0, 0}, {SCHEMA_ELEMENTS_END, 0, 0}};
+    {SCHEMA_FIELDS, 1, 1}, {SCHEMA_HISTORY, 0, 0}, {SCHEMA_CHECKPOINTS, 0, 1}, {SCHEMA_ELEMENTS_END, 0, 0}};
 
 static const struct schema_attribute fields_attributes[] = {
     {"every", SCHEMA_REAL, .required = true, .range = RANGE_POSITIVE, .unit = "s",
@@ -413,6 +413,12 @@ static const struct schema_attribute history_attributes[] = {
     {"from", SCHEMA_VECTOR, .unit = "m", .doc = "profile: first point"},
     {"to", SCHEMA_VECTOR, .unit = "m", .doc = "profile: last point"},
     {"points", SCHEMA_INTEGER, .range = RANGE_POSITIVE, .doc = "profile: number of points"},
+    {0}};
+
+static const struct schema_attribute checkpoints_attributes[] = {
+    {"every", SCHEMA_REAL, .range = RANGE_NOT_NEGATIVE, .unit = "s", .fallback = "600",
+     .doc = "wall-clock time between checkpoints; 0: after every step. One is also written at the end and "
+            "when the run is stopped"},
     {0}};
 
 static const struct schema_element elements[SCHEMA_ELEMENTS_END] =
@@ -519,7 +525,9 @@ static const struct schema_element elements[SCHEMA_ELEMENTS_END] =
                           .attributes = coupling_attributes},
      [SCHEMA_OUTPUT] = {"output", "output", "what is written", .children = output_children},
      [SCHEMA_FIELDS] = {"fields", "fields", "frames for ParaView", .attributes = fields_attributes},
-     [SCHEMA_HISTORY] = {"history", "history", "a table over time", .attributes = history_attributes}};
+     [SCHEMA_HISTORY] = {"history", "history", "a table over time", .attributes = history_attributes},
+     [SCHEMA_CHECKPOINTS] = {"checkpoints", "checkpoints", "states from which a run can be resumed",
+                             .attributes = checkpoints_attributes}};
 
 const struct schema_element *schema_element(enum schema_id id)
 {

@@ -95,6 +95,7 @@ enum schema_id {
     SCHEMA_OUTPUT,
     SCHEMA_FIELDS,
     SCHEMA_HISTORY,
+    SCHEMA_CHECKPOINTS,
     SCHEMA_ELEMENTS_END /**< number of kinds of elements; ends lists of children */
 };
 

@@ -46,6 +46,24 @@ size_t deck_count(const struct deck_node *node, enum schema_id id)
     return n;
 }
 
+struct deck_node *deck_add(struct deck *deck, struct deck_node *parent, enum schema_id id)
+{
+    struct deck_node *node = deck_memory(deck, 1, sizeof *node);
+    if (!node)
+        return NULL;
+    struct deck_node **last = &parent->children;
+    while (*last && (*last)->id < id)
+        last = &(*last)->next;
+    node->id = id;
+    node->element = schema_element(id);
+    node->where = parent->where;
+    node->parent = parent;
+    node->attributes = deck_memory(deck, schema_attribute_count(node->element), sizeof *node->attributes);
+    node->next = *last;
+    *last = node;
+    return node->attributes ? node : NULL;
+}
+
 static size_t attribute_index(const struct deck_node *node, const char *name)
 {
     size_t a = 0;

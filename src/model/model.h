@@ -228,6 +228,7 @@ struct model_output {
     struct model_history *histories;
     size_t n_virtual_particles; /**< ids of fluid particles whose virtual boundary particles are written */
     long *virtual_particles;
+    double checkpoint_every; /**< s of wall-clock time between checkpoints; 0: after every step */
 };
 
 struct model {

@@ -227,6 +227,30 @@ static void test_boundaries(void **state)
     model_destroy(model);
 }
 
+/** With a default, whether the element is there or not; in wall-clock seconds. */
+static void test_checkpoints(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *element;
+        double every;
+    } cases[] = {
+        {"", 600.0},
+        {"<checkpoints/>", 600.0},
+        {"<checkpoints every='0'/>", 0.0},
+        {"<checkpoints every='10 min'/>", 600.0},
+        {"<checkpoints every='dx*w'/>", 0.2},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "%s</output>", cases[i].element);
+        write_variant("</output>", text);
+        struct model *model = read_deck();
+        assert_near(model->output.checkpoint_every, cases[i].every);
+        model_destroy(model);
+    }
+}
+
 static void assert_input(const struct model_input *input, const char *name, const char *path,
                          const char *text)
 {
@@ -314,6 +338,7 @@ static void test_show(void **state)
     assert_non_null(strstr(first, " formulation=\"transport-velocity\""));
     assert_non_null(strstr(first, " origin=\"-0.5 -0.5 -0.5\""));
     assert_non_null(strstr(first, " scheme=\"fixed-point\""));
+    assert_non_null(strstr(first, "<checkpoints every=\"600\"/>"));
     assert_non_null(strstr(first, " cells=\"2 2 3\"")); // 0.3/dx is a whole number after rounding
     struct model *again = read_deck();
     assert_int_equal(again->fluid.regions[0].shape.n_children, model->fluid.regions[0].shape.n_children);
@@ -464,11 +489,12 @@ static void test_parts_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),        cmocka_unit_test(test_regions),
-        cmocka_unit_test(test_meshes),        cmocka_unit_test(test_surfaces),
-        cmocka_unit_test(test_boundaries),    cmocka_unit_test(test_inputs),
-        cmocka_unit_test(test_input_of_deck), cmocka_unit_test(test_show),
-        cmocka_unit_test(test_overrides),     cmocka_unit_test(test_lists),
-        cmocka_unit_test(test_mistakes),      cmocka_unit_test(test_parts_alone)};
+        cmocka_unit_test(test_values),     cmocka_unit_test(test_regions),
+        cmocka_unit_test(test_meshes),     cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_boundaries), cmocka_unit_test(test_checkpoints),
+        cmocka_unit_test(test_inputs),     cmocka_unit_test(test_input_of_deck),
+        cmocka_unit_test(test_show),       cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_lists),      cmocka_unit_test(test_mistakes),
+        cmocka_unit_test(test_parts_alone)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
