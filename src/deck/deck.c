@@ -85,8 +85,9 @@ static void warn_unused(struct deck *deck)
 static int deck_build(struct deck *deck)
 {
     static int (*const sections[])(struct deck *) = {
-        deck_read_parameters, deck_read_time,  deck_read_domain,     deck_read_materials, deck_read_meshes,
-        deck_read_surfaces,   deck_read_fluid, deck_read_boundaries, deck_read_coupling,  deck_read_output};
+        deck_read_parameters, deck_check_resume,  deck_read_time,     deck_read_domain,
+        deck_read_materials,  deck_read_meshes,   deck_read_surfaces, deck_read_fluid,
+        deck_read_boundaries, deck_read_coupling, deck_read_output};
     struct model *model = deck->model;
     model->path = memory_text(deck->path);
     model->name = base_name(deck->path);
@@ -104,9 +105,11 @@ static int deck_build(struct deck *deck)
     return 0;
 }
 
-int deck_load(struct deck *deck, const char *path, size_t n_overrides, const char *const *overrides)
+int deck_load(struct deck *deck, const char *path, size_t n_overrides, const char *const *overrides,
+              size_t n_before)
 {
-    *deck = (struct deck){.path = path, .n_overrides = n_overrides, .overrides = overrides};
+    *deck =
+        (struct deck){.path = path, .n_overrides = n_overrides, .overrides = overrides, .n_before = n_before};
     char *text = NULL;
     size_t size = 0;
     CALL(file_read(path, DECK_LIMIT, &text, &size));
@@ -138,15 +141,21 @@ void deck_reset(struct deck *deck)
     *deck = (struct deck){0};
 }
 
-int deck_read(struct model **model, const char *path, size_t n_overrides, const char *const *overrides)
+int deck_read_resume(struct model **model, const char *path, size_t n_overrides, const char *const *overrides,
+                     size_t n_before)
 {
     struct deck deck;
     *model = NULL;
-    int status = deck_load(&deck, path, n_overrides, overrides);
+    int status = deck_load(&deck, path, n_overrides, overrides, n_before);
     if (!status) {
         *model = deck.model;
         deck.model = NULL;
     }
     deck_reset(&deck);
     return status;
+}
+
+int deck_read(struct model **model, const char *path, size_t n_overrides, const char *const *overrides)
+{
+    return deck_read_resume(model, path, n_overrides, overrides, n_overrides);
 }

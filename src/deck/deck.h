@@ -15,6 +15,15 @@
  * STATUS_NO_INPUT (the file cannot be read), STATUS_IO or STATUS_MEMORY. */
 int deck_read(struct model **model, const char *path, size_t n_overrides, const char *const *overrides);
 
+/** Read the deck of a run that is resumed: as deck_read does, with all overrides, of which the first @p
+ * n_before belonged to the run so far. What came after them may change nothing but the end of the simulated
+ * time and the output: each later override that gives a parameter another value than it had may reach only
+ * "end" of <time> and what stands inside <output>, also by way of other parameters and of functions. For
+ * every override that reaches more, the first place where it does is printed, as mistakes of the deck are,
+ * and STATUS_USAGE is returned before anything is built. */
+int deck_read_resume(struct model **model, const char *path, size_t n_overrides, const char *const *overrides,
+                     size_t n_before);
+
 /** Read a deck as deck_read does and print it as understood: every default filled in, constant expressions
  * evaluated to SI numbers, parameters with the values they have after @p overrides. What is printed is a deck
  * that reads to the same model. */

@@ -35,6 +35,7 @@ struct deck {
     const char *path;
     size_t n_overrides;
     const char *const *overrides; /**< "NAME=VALUE" */
+    size_t n_before; /**< how many belonged to the run that is resumed; n_overrides: nothing is resumed */
     struct deck_node *root;
     struct model *model;
     size_t input_capacity; /**< of model->inputs */
@@ -118,6 +119,20 @@ bool deck_evaluate(struct deck *deck, const char *text, const char *unit, double
 void deck_error_value(struct deck *deck, const struct deck_node *node, const char *attribute,
                       const char *text, const char *message);
 
+/** The value that the last of the first @p n_overrides overrides of a <parameter> gives to it, or NULL. */
+const char *deck_override(const struct deck *deck, const struct deck_node *node, size_t n_overrides);
+
+/** Whether the value of an attribute (number in the table) uses the parameter or function @p name; of a
+ * <parameter>, the value that it has after --set. Names, units and words that are no expressions use none. */
+bool deck_mentions(struct deck *deck, const struct deck_node *node, size_t attribute, const char *name);
+
+/** The first of @p node, its siblings behind it and all below them with an attribute (its number: *@p
+ * attribute) that mentions one of @p n names and of which @p counts says so (NULL: every one); NULL: none. */
+const struct deck_node *deck_find_mention(struct deck *deck, const struct deck_node *node, size_t n,
+                                          const char *const *names,
+                                          bool (*counts)(const struct deck_node *node, size_t attribute),
+                                          size_t *attribute);
+
 /** Compile an expression; a number with a unit is one too. NULL after noting a mistake. */
 struct expression *deck_compile(struct deck *deck, const struct deck_node *node,
                                 const struct schema_attribute *attribute, const char *text);
@@ -174,6 +189,7 @@ void *deck_memory(struct deck *deck, size_t count, size_t size);
 
 /* ---- sections: deck tree -> model ---- */
 int deck_read_parameters(struct deck *deck);
+int deck_check_resume(struct deck *deck); /**< right after the parameters, whose overrides it may refuse */
 int deck_read_time(struct deck *deck);
 int deck_read_domain(struct deck *deck);
 int deck_read_materials(struct deck *deck);
@@ -192,8 +208,10 @@ void deck_read_motion(struct deck *deck, const struct deck_node *node, struct mo
  * data the @p size bytes that were read from @p path. Returns 0 or STATUS_MEMORY. */
 int deck_note_input(struct deck *deck, const char *name, const char *path, const char *data, size_t size);
 
-/** Read a whole deck into deck->model with its tree kept; errors are printed. Reset in any case. */
-int deck_load(struct deck *deck, const char *path, size_t n_overrides, const char *const *overrides);
+/** Read a whole deck into deck->model with its tree kept; errors are printed. Reset in any case. @p n_before:
+ * as of deck_read_resume. */
+int deck_load(struct deck *deck, const char *path, size_t n_overrides, const char *const *overrides,
+              size_t n_before);
 void deck_reset(struct deck *deck);
 
 #endif

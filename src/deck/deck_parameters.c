@@ -8,11 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-/** The value that --set gives to a parameter (the last one counts), or NULL. */
-static const char *override_of(const struct deck *deck, const char *name)
+const char *deck_override(const struct deck *deck, const struct deck_node *node, size_t n_overrides)
 {
-    const size_t length = strlen(name);
-    for (size_t i = deck->n_overrides; i-- > 0;)
+    const char *name = deck_text(node, "name");
+    const size_t length = name ? strlen(name) : 0;
+    for (size_t i = n_overrides; i-- > 0 && name;)
         if (strncmp(deck->overrides[i], name, length) == 0 && deck->overrides[i][length] == '=')
             return deck->overrides[i] + length + 1;
     return NULL;
@@ -41,7 +41,7 @@ static void read_parameter(struct deck *deck, const struct deck_node *node)
     struct expression_scope *scope = &deck->scope;
     parameter->where = node->where;
     parameter->name = deck_word(deck, node, "name");
-    const char *override = override_of(deck, parameter->name ? parameter->name : "");
+    const char *override = deck_override(deck, node, deck->n_overrides);
     const char *text = override ? override : deck_text(node, "value");
     char message[512];
     if (!deck_evaluate(deck, text, NULL, &parameter->value, message, sizeof message)) {
@@ -89,24 +89,15 @@ static void check_overrides(struct deck *deck)
     }
 }
 
-/** Whether some value of the deck uses the word @p name. */
-static bool deck_mentions(const struct deck_node *node, const struct deck_node *except, const char *name)
+/** Parameters with a new value that nothing uses are allowed, but often a slip. */
+static void warn_unused_override(struct deck *deck, const struct deck_node *node)
 {
-    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
-    const size_t length = strlen(name);
-    for (; node; node = node->next) {
-        for (size_t a = 0; node != except && a < schema_attribute_count(node->element); a++)
-            for (const char *c = node->attributes[a].text; c && *c;) {
-                c += strcspn(c, letters);
-                size_t word = strspn(c, letters);
-                if (word == length && strncmp(c, name, length) == 0)
-                    return true;
-                c += word;
-            }
-        if (deck_mentions(node->children, except, name))
-            return true;
-    }
-    return false;
+    const char *name = deck_text(node, "name");
+    size_t attribute;
+    if (deck_override(deck, node, deck->n_overrides) &&
+        !deck_find_mention(deck, deck->root, 1, &name, NULL, &attribute))
+        deck_warning(deck, node->where, "--set changes nothing: <%s name=\"%s\"> is not used",
+                     node->element->name, name);
 }
 
 int deck_read_parameters(struct deck *deck)
@@ -128,14 +119,12 @@ int deck_read_parameters(struct deck *deck)
             deck_error(deck, node, "name", "the name \"%s\" is reserved", deck_text(node, "name"));
             continue;
         }
-        if (node->id == SCHEMA_PARAMETER)
+        if (node->id == SCHEMA_PARAMETER) {
             read_parameter(deck, node);
-        else
+            warn_unused_override(deck, node);
+        } else {
             read_function(deck, node);
-        if (override_of(deck, deck_text(node, "name")) &&
-            !deck_mentions(deck->root, node, deck_text(node, "name")))
-            deck_warning(deck, node->where, "--set changes nothing: <%s name=\"%s\"> is not used",
-                         node->element->name, deck_text(node, "name"));
+        }
     }
     if (!deck->status)
         check_overrides(deck);

@@ -145,7 +145,7 @@ static void print_node(struct deck *deck, const struct deck_node *node, int dept
 int deck_show(const char *path, size_t n_overrides, const char *const *overrides, FILE *stream)
 {
     struct deck deck;
-    int status = deck_load(&deck, path, n_overrides, overrides);
+    int status = deck_load(&deck, path, n_overrides, overrides, n_overrides);
     if (!status) {
         fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", stream);
         print_node(&deck, deck.root, 0, stream);

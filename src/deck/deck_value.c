@@ -135,6 +135,81 @@ void deck_error_value(struct deck *deck, const struct deck_node *node, const cha
         deck->n_problems++;
 }
 
+/** Whether an entry of a value uses the parameter or function @p name, in what is neither number nor unit. */
+static bool entry_mentions(const char *text, const char *name)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.";
+    const char *rest = NULL;
+    if (value_form(text, &rest) != VALUE_EXPRESSION)
+        return false;
+    for (const char *word = text + strcspn(text, letters); *word; word += strcspn(word, letters)) {
+        const size_t length = strspn(word, letters);
+        if (length == strlen(name) && strncmp(word, name, length) == 0)
+            return true;
+        word += length;
+    }
+    return false;
+}
+
+static bool list_mentions(struct deck *deck, const char *text, const char *name)
+{
+    char *copy = memory_text(text), **entries = NULL;
+    bool found = false;
+    size_t n = copy ? deck_split(deck, copy, &entries) : 0;
+    for (size_t i = 0; i < n && !found; i++)
+        found = entry_mentions(entries[i], name);
+    deck->status = copy ? deck->status : STATUS_MEMORY;
+    memory_free(entries);
+    memory_free(copy);
+    return found;
+}
+
+bool deck_mentions(struct deck *deck, const struct deck_node *node, size_t attribute, const char *name)
+{
+    const char *text = node->attributes[attribute].text;
+    if (!text)
+        return false;
+    switch (node->element->attributes[attribute].kind) {
+    case SCHEMA_REAL:
+    case SCHEMA_INTEGER:
+    case SCHEMA_EXPRESSION:
+        return entry_mentions(text, name);
+    case SCHEMA_VECTOR:
+    case SCHEMA_CELLS:
+    case SCHEMA_POINTS:
+    case SCHEMA_INTEGERS:
+    case SCHEMA_EXPRESSIONS:
+        return list_mentions(deck, text, name);
+    case SCHEMA_TEXT:
+        if (node->id == SCHEMA_PARAMETER) {
+            const char *override = deck_override(deck, node, deck->n_overrides);
+            return entry_mentions(override ? override : text, name);
+        }
+        return false;
+    default: // names and words
+        return false;
+    }
+}
+
+const struct deck_node *deck_find_mention(struct deck *deck, const struct deck_node *node, size_t n,
+                                          const char *const *names,
+                                          bool (*counts)(const struct deck_node *node, size_t attribute),
+                                          size_t *attribute)
+{
+    for (; node; node = node->next) {
+        for (size_t a = 0; a < schema_attribute_count(node->element); a++)
+            for (size_t i = 0; i < n && (!counts || counts(node, a)); i++)
+                if (deck_mentions(deck, node, a, names[i])) {
+                    *attribute = a;
+                    return node;
+                }
+        const struct deck_node *found = deck_find_mention(deck, node->children, n, names, counts, attribute);
+        if (found)
+            return found;
+    }
+    return NULL;
+}
+
 static const char *range_words(enum schema_range range, double value)
 {
     switch (range) {
