@@ -225,10 +225,16 @@ static void items_fill(struct item *items, const struct vtu_grid *grid)
 
 static int file_write(FILE *stream, const struct vtu_grid *grid, struct item *items, size_t n)
 {
-    struct writer writer = {.stream = stream, .bound = compressBound(VTU_BLOCK)};
+    struct writer writer = {.stream = stream};
+    size_t largest = 1; // bytes of an array: small files need no large buffers
+    for (size_t i = 0; i < n; ++i)
+        largest = items[i].bytes > largest ? items[i].bytes : largest;
+    const size_t block = largest < VTU_BLOCK ? largest : VTU_BLOCK;
+    const size_t blocks = (largest + VTU_BLOCK - 1) / VTU_BLOCK, batch = blocks < BATCH ? blocks : BATCH;
+    writer.bound = compressBound(block);
     head_write(stream, grid, items);
-    writer.packed = memory_create(BATCH, writer.bound);
-    writer.raw = grid->connectivity ? NULL : memory_create(BATCH, VTU_BLOCK);
+    writer.packed = memory_create(batch, writer.bound);
+    writer.raw = grid->connectivity ? NULL : memory_create(batch, block);
     int status = writer.packed && (grid->connectivity || writer.raw) ? 0 : STATUS_MEMORY;
     for (size_t i = 0; i < n && !status; ++i)
         status = item_write(&writer, &items[i]);
