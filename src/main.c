@@ -5,11 +5,14 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "base/timer.h"
 #include "deck/deck.h"
 #include "deck/deck_schema.h"
 #include "output/picture.h"
 #include "run/preview.h"
+#include "run/record.h"
 #include "run/simulation.h"
+#include "run/status.h"
 #include "run/version.h"
 
 #include <errno.h>
@@ -95,6 +98,21 @@ static int set_until(struct command *command, const char *value)
 static int set_steps(struct command *command, const char *value)
 {
     return read_whole("--steps", value, 0, LONG_MAX, &command->run.steps);
+}
+
+static int set_max_wall(struct command *command, const char *value)
+{
+    CALL(read_numbers("--max-wall", value, &command->run.max_wall, 1));
+    CHECK(command->run.max_wall >= 0.0, STATUS_USAGE, "--max-wall %s: seconds are wanted, 0 or more", value);
+    return 0;
+}
+
+static int set_checkpoint_every(struct command *command, const char *value)
+{
+    CALL(read_numbers("--checkpoint-every", value, &command->run.checkpoint_every, 1));
+    CHECK(command->run.checkpoint_every >= 0.0, STATUS_USAGE,
+          "--checkpoint-every %s: seconds are wanted; 0 means after every step", value);
+    return 0;
 }
 
 static int set_quiet(struct command *command, const char *value)
@@ -195,21 +213,29 @@ static int set_help(struct command *command, const char *value)
 }
 
 static const struct option options[] = {
-    {"--set", 0, "NAME=VALUE", "check run show", "new value of a parameter of the deck (may be repeated)",
+    {"--set", 0, "NAME=VALUE", "check run resume show",
+     "new value of a parameter of the deck (may be repeated); resume: of one that only the end or the output "
+     "depends on",
      set_override},
     {"--output", 'o', "DIR", "check run", "folder of the output (default: NAME.out in the current folder)",
      set_output},
-    {"--threads", 'j', "THREADS", "run", "number of threads (default: the CPUs this process may use)",
+    {"--threads", 'j', "THREADS", "run resume", "number of threads (default: the CPUs this process may use)",
      set_threads},
-    {"--until", 0, "TIME", "run", "stop after the first step that reaches TIME (in s)", set_until},
-    {"--steps", 0, "N", "run", "stop when N steps have been made", set_steps},
-    {"--quiet", 'q', NULL, "check run", "no progress, only warnings and errors", set_quiet},
-    {"--verbose", 'v', NULL, "check run", "more messages", set_verbose},
-    {"--log", 0, "FILE", "check run", "append all messages to FILE", set_log},
-    {"--json", 0, NULL, "run", "progress as JSON, one object a line, on standard output", set_json},
+    {"--until", 0, "TIME", "run resume", "stop after the first step that reaches TIME (in s)", set_until},
+    {"--steps", 0, "N", "run resume", "stop when N steps have been made since the start", set_steps},
+    {"--max-wall", 0, "SECONDS", "run resume",
+     "stop with a checkpoint (exit code 75) before the program has run so long", set_max_wall},
+    {"--checkpoint-every", 0, "SECONDS", "run resume",
+     "wall-clock time between checkpoints (default: as the deck says, else 600); 0: after every step",
+     set_checkpoint_every},
+    {"--quiet", 'q', NULL, "check run resume", "no progress, only warnings and errors", set_quiet},
+    {"--verbose", 'v', NULL, "check run resume", "more messages", set_verbose},
+    {"--log", 0, "FILE", "check run resume", "append all messages to FILE", set_log},
+    {"--json", 0, NULL, "run resume", "progress as JSON, one object a line, on standard output", set_json},
     {"--force", 0, NULL, "run", "remove what an earlier run wrote into the folder", set_force},
     {"--dry-run", 0, NULL, "run", "check everything and print what would run, write nothing", set_dry_run},
-    {"--isa", 0, "NAME", "run", "instruction set: auto, baseline, v3 or v4", set_isa},
+    {"--isa", 0, "NAME", "run resume",
+     "instruction set: auto, baseline, v3 or v4 (resume: default as before)", set_isa},
     {"--field", 0, "NAME", "picture", "what to colour by (default: Speed)", set_field},
     {"--frame", 0, "FRAME", "picture", "first, last, a number, or t=TIME (default: last)", set_frame},
     {"--range", 0, "A:B", "picture", "values at the ends of the colour bar (default: those that occur)",
@@ -218,12 +244,14 @@ static const struct option options[] = {
     {"--slab", 0, "Z0:Z1", "picture", "3-D: draw only what lies between (default: all)", set_slab},
     {"--width", 0, "PIXELS", "picture", "width of the picture (default: 1600)", set_width},
     {"--file", 0, "FILE", "picture", "PNG to write (default: OUTPUT/FIELD_FRAME.png)", set_file},
-    {"--help", 'h', NULL, "check run show schema help picture", "this text", set_help},
+    {"--help", 'h', NULL, "check run resume status show schema help picture", "this text", set_help},
 };
 enum { N_OPTIONS = sizeof options / sizeof *options };
 
 static int run_check(struct command *command);
 static int run_run(struct command *command);
+static int run_resume(struct command *command);
+static int run_status(struct command *command);
 static int run_show(struct command *command);
 static int run_schema(struct command *command);
 static int run_help(struct command *command);
@@ -237,6 +265,10 @@ static const struct verb {
 } verbs[] = {
     {"check", "DECK", true, "parse and validate a deck, print what would run; write nothing", run_check},
     {"run", "DECK", true, "run a deck", run_run},
+    {"resume", "OUTPUT", true,
+     "go on with a run that was stopped or killed, from the newest checkpoint in its output folder",
+     run_resume},
+    {"status", "OUTPUT", true, "tell where a run is", run_status},
     {"show", "DECK", true, "print a deck as understood: every default filled in, every expression evaluated",
      run_show},
     {"schema", NULL, false, "print the XML schema of decks", run_schema},
@@ -352,17 +384,30 @@ static int read_arguments(const struct verb *verb, int n, char **arguments, stru
     return 0;
 }
 
-/** Read the deck and check that its parts go together. */
-static int load(struct command *command, struct model **model)
+/** Open what options ask for before anything is said. */
+static int messages_open(const struct command *command)
 {
     if (command->log)
         CALL(log_open(command->log));
     if (command->verbose)
         log_set_level(LOG_DETAIL);
-    CALL(deck_read(model, command->operand, command->n_overrides, command->overrides));
+    return 0;
+}
+
+/** Whether the parts of a deck go together; what the deck is like has been said now. */
+static int check(const struct command *command, const struct model *model)
+{
     if (command->run.quiet)
         log_set_level(LOG_WARNING);
-    int status = simulation_check(*model);
+    return simulation_check(model);
+}
+
+/** Read the deck and check that its parts go together. */
+static int load(struct command *command, struct model **model)
+{
+    CALL(messages_open(command));
+    CALL(deck_read(model, command->operand, command->n_overrides, command->overrides));
+    int status = check(command, *model);
     if (status) {
         model_destroy(*model);
         *model = NULL;
@@ -393,6 +438,47 @@ static int run_run(struct command *command)
     return status;
 }
 
+static int resume_record(struct command *command, const struct record *record)
+{
+    const size_t n = record->n_overrides + command->n_overrides;
+    const char **overrides = memory_create(n, sizeof *overrides);
+    struct model *model = NULL;
+    CHECK_MEMORY(overrides);
+    for (size_t k = 0; k < n; k++)
+        overrides[k] =
+            k < record->n_overrides ? record->overrides[k] : command->overrides[k - record->n_overrides];
+    struct run_options options = command->run;
+    options.resume = true;
+    options.output = command->operand;
+    options.isa_before = record->isa;
+    options.overrides = overrides;
+    options.n_overrides = n;
+    options.n_overrides_before = record->n_overrides;
+    int status = deck_read_resume(&model, record->deck, n, overrides, record->n_overrides);
+    if (!status)
+        status = check(command, model);
+    if (!status)
+        status = simulation_run(model, &options);
+    model_destroy(model);
+    memory_free(overrides);
+    return status;
+}
+
+static int run_resume(struct command *command)
+{
+    struct record record;
+    CALL(messages_open(command));
+    CALL(record_read(&record, command->operand));
+    const int status = resume_record(command, &record);
+    record_reset(&record);
+    return status;
+}
+
+static int run_status(struct command *command)
+{
+    return status_print(command->operand, stdout);
+}
+
 static int run_show(struct command *command)
 {
     return deck_show(command->operand, command->n_overrides, command->overrides, stdout);
@@ -417,7 +503,11 @@ static int run_picture(struct command *command)
 
 static int run_verb(const struct verb *verb, int n, char **arguments)
 {
-    struct command command = {.run = {.steps = -1, .isa = "auto"},
+    struct command command = {.run = {.steps = -1,
+                                      .isa = "auto",
+                                      .started = timer_now(),
+                                      .max_wall = -1.0,
+                                      .checkpoint_every = -1.0},
                               .picture = {.field = "Speed", .frame = "last", .width = 1600}};
     command.overrides = memory_create((size_t)n, sizeof *command.overrides);
     CHECK_MEMORY(command.overrides);

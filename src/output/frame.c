@@ -160,12 +160,12 @@ static int part_write(const char *path, const struct frame_writer *writer, const
     return vtu_write(path, &grid);
 }
 
-int frame_write_part(const struct frame_writer *writer, const struct frame_part *part, int frame, double t,
+int frame_write_part(const struct frame_writer *writer, const struct frame_part *part, double t,
                      int64_t cycle)
 {
     struct frame_buffers buffers = {.n = 0};
     char file[192];
-    snprintf(file, sizeof file, "fields/%s_%06d.vtu", part->name, frame);
+    snprintf(file, sizeof file, "fields/%s_%s.vtu", part->name, writer->label);
     char *path = memory_print("%s/%s", writer->folder, file);
     CHECK_MEMORY(path);
     int status = part_write(path, writer, part, writer->float64, t, cycle, &buffers);

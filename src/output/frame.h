@@ -26,6 +26,7 @@ struct frame_part {
 /** Where and how frames are written. */
 struct frame_writer {
     const char *folder; /**< of the run */
+    const char *label;  /**< of the frame: "000123" */
     struct pvd *pvd;
     bool float64;
     const char *const *optional; /**< names of the optional fields that are wanted */
@@ -34,9 +35,9 @@ struct frame_writer {
     size_t n_always;
 };
 
-/** Write one part of frame @p frame as FOLDER/fields/NAME_FRAME.vtu and add it to the .pvd (in memory).
- * Returns a status. */
-int frame_write_part(const struct frame_writer *writer, const struct frame_part *part, int frame, double t,
+/** Write one part of a frame as FOLDER/fields/NAME_LABEL.vtu and add it to the .pvd (in memory). Returns a
+ * status. */
+int frame_write_part(const struct frame_writer *writer, const struct frame_part *part, double t,
                      int64_t cycle);
 
 /** The same into the file @p path, outside the series (blowup.vtu): all OUTPUT fields, float64. */

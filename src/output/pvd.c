@@ -46,6 +46,14 @@ int pvd_add(struct pvd *pvd, double time, int part, const char *name, const char
     return 0;
 }
 
+size_t pvd_count(const struct pvd *pvd, double t)
+{
+    size_t n = 0;
+    while (n < pvd->n && pvd->entries[n].time <= t)
+        ++n;
+    return n;
+}
+
 int pvd_write(const struct pvd *pvd)
 {
     struct file_atomic file;

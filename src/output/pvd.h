@@ -24,6 +24,9 @@ void pvd_reset(struct pvd *pvd);
 /** Add an entry (in memory). */
 int pvd_add(struct pvd *pvd, double time, int part, const char *name, const char *file);
 
+/** Number of entries of time @p t or before; as entries follow in time, they are the first ones. */
+size_t pvd_count(const struct pvd *pvd, double t);
+
 /** Rewrite the file atomically. */
 int pvd_write(const struct pvd *pvd);
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "run/record.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -12,10 +13,15 @@
 #include <unistd.h>
 
 /** What a run writes: names in the folder itself, and endings in its sub-folders. */
-static const char *const own_files[] = {"log.txt", "status.json", "summary.json", "view.py", "blowup.vtu"};
+static const char *const own_files[] = {"log.txt", "status.json", "summary.json",
+                                        "view.py", "blowup.vtu",  "stop"};
 static const struct {
     const char *folder, *ending;
-} own_folders[] = {{"fields", ".vtu"}, {"history", ".csv"}, {"input", ".xml"}, {"checkpoint", ".h5"}};
+} own_folders[] = {{"fields", ".vtu"},
+                   {"history", ".csv"},
+                   {"input", ".xml"},
+                   {"checkpoint", ".h5"},
+                   {"checkpoint", ".manifest"}};
 
 static bool name_ends(const char *name, const char *ending)
 {
@@ -63,14 +69,31 @@ static int files_remove(const char *path, const char *ending)
     return status;
 }
 
+/** Remove the file @p name of folder @p path, and its temporary one, if they are there. */
+static int file_remove(const char *path, const char *name)
+{
+    static const char *const endings[] = {"", ".tmp"};
+    int status = 0;
+    for (size_t k = 0; k < sizeof endings / sizeof *endings && !status; ++k) {
+        char *file = memory_print("%s/%s%s", path, name, endings[k]);
+        CHECK_MEMORY(file);
+        if (unlink(file) && errno != ENOENT)
+            status = error_report(STATUS_CREATE, "%s: cannot remove: %s", file, strerror(errno));
+        memory_free(file);
+    }
+    return status;
+}
+
 static int old_run_remove(const char *path, const struct model *model)
 {
     char *series = memory_print("%s.pvd", model->name);
     CHECK_MEMORY(series);
-    int status = files_remove(path, series);
+    int status = file_remove(path, series);
     memory_free(series);
+    if (!status)
+        status = record_remove(path);
     for (size_t k = 0; k < sizeof own_files / sizeof *own_files && !status; ++k)
-        status = files_remove(path, own_files[k]);
+        status = file_remove(path, own_files[k]);
     for (size_t k = 0; k < sizeof own_folders / sizeof *own_folders && !status; ++k) {
         char *folder = memory_print("%s/%s", path, own_folders[k].folder);
         CHECK_MEMORY(folder);
@@ -89,38 +112,29 @@ static int subfolder_create(const char *path, const char *name)
     return status;
 }
 
-static int deck_copy(const char *path, const struct model *model)
+int folder_lock(const char *path, int *lock)
 {
-    char *text = NULL, *target = NULL;
-    size_t size;
-    CALL(file_read(model->path, (size_t)64 << 20, &text, &size));
-    target = memory_print("%s/input/%s.xml", path, model->name);
-    struct file_atomic file;
-    int status = target ? file_atomic_open(&file, target) : STATUS_MEMORY;
-    if (!status && fwrite(text, 1, size, file.stream) != size) {
-        status = error_report(STATUS_IO, "%s: %s", target, strerror(errno));
-        file_atomic_abandon(&file);
-    }
-    if (!status)
-        status = file_atomic_commit(&file);
-    memory_free(target);
-    memory_free(text);
-    return status;
+    CHECK(!file_lock_folder(path, lock), STATUS_CREATE,
+          "%s: another skerry is writing there (\"skerry status %s\" tells which); wait for it or stop it",
+          path, path);
+    return 0;
 }
 
-int folder_create(const char *path, const struct model *model, bool force)
+int folder_create(const char *path, const struct model *model, bool force, int *lock)
 {
     bool empty;
     CALL(folder_empty(path, &empty));
     CHECK(
         empty || force, STATUS_CREATE,
-        "%s: the folder is not empty; use --force to replace an earlier run there, or -o for another folder",
-        path);
+        "%s: the folder is not empty; go on with an earlier run there with \"skerry resume %s\", replace it "
+        "with --force, or name another folder with -o",
+        path, path);
+    CALL(file_make_folder(path));
+    CALL(folder_lock(path, lock));
     if (!empty)
         CALL(old_run_remove(path, model));
     static const char *const subfolders[] = {"fields", "history", "input"};
-    CALL(file_make_folder(path));
     for (size_t k = 0; k < sizeof subfolders / sizeof *subfolders; ++k)
         CALL(subfolder_create(path, subfolders[k]));
-    return deck_copy(path, model);
+    return 0;
 }

@@ -6,7 +6,10 @@
 #include "base/memory.h"
 #include "output/frame.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *const always[] = {
     "Density",        "Mass",          "SmoothingLength", "Velocity", "Pressure",     "Id",  "Displacement",
@@ -25,8 +28,9 @@ struct frames {
     struct coupling_parts parts;
     char *folder;
     struct pvd pvd;
-    int count;
-    long files;
+    int64_t count;
+    struct field_group state;
+    struct field state_field;
     struct wall_neighbours neighbours;
     struct virtual_block virtuals;
 };
@@ -39,6 +43,9 @@ int frames_create(struct frames **frames, const struct model *model, const struc
     *frames = f;
     f->model = model;
     f->parts = *parts;
+    f->state_field = (struct field){"Frames", "-", FIELD_INT64, 1, FIELD_STATE, {&f->count}, NULL};
+    f->state = (struct field_group){
+        .name = "frames", .owner = f, .count = &field_one, .fields = &f->state_field, .n_fields = 1};
     f->folder = memory_text(folder);
     CHECK_MEMORY(f->folder);
     char *path = memory_print("%s/%s.pvd", folder, model->name);
@@ -136,16 +143,14 @@ static int virtual_write(struct frames *frames, const struct frame_writer *write
                                             .points = &block->group,
                                             .scalars = "Pressure"};
     CALL(virtual_reserve(block, 1));
-    return frame_write_part(writer, &virtual_part, frames->count, t, step);
+    return frame_write_part(writer, &virtual_part, t, step);
 }
 
-static int part_write_counted(struct frames *frames, const struct frame_writer *writer,
-                              struct frame_part part, int *number, double t, long step)
+static int part_write_numbered(const struct frame_writer *writer, struct frame_part part, int *number,
+                               double t, long step)
 {
     part.part = (*number)++;
-    CALL(frame_write_part(writer, &part, frames->count, t, step));
-    ++frames->files;
-    return 0;
+    return frame_write_part(writer, &part, t, step);
 }
 
 static int surfaces_write(struct frames *frames, const struct frame_writer *writer, int *number, double t,
@@ -162,17 +167,19 @@ static int surfaces_write(struct frames *frames, const struct frame_writer *writ
                                         .points = &surface->fields,
                                         .facets = (const int32_t(*)[4])surface->nodes,
                                         .n_facets = surface->n_facets};
-        int status = part_write_counted(frames, writer, part, number, t, step);
+        int status = part_write_numbered(writer, part, number, t, step);
         memory_free(name);
         CALL(status);
     }
     return 0;
 }
 
-int frames_write(struct frames *frames, double t, long step)
+/** All parts of the frame called @p label, then the .pvd. */
+static int frame_write(struct frames *frames, const char *label, double t, long step)
 {
     const struct model_output *output = &frames->model->output;
     const struct frame_writer writer = {.folder = frames->folder,
+                                        .label = label,
                                         .pvd = &frames->pvd,
                                         .float64 = output->float64,
                                         .optional = (const char *const *)output->arrays,
@@ -181,7 +188,7 @@ int frames_write(struct frames *frames, double t, long step)
                                         .n_always = sizeof always / sizeof *always};
     int number = 0;
     if (frames->parts.fluid)
-        CALL(part_write_counted(frames, &writer, fluid_part(frames->parts.fluid), &number, t, step));
+        CALL(part_write_numbered(&writer, fluid_part(frames->parts.fluid), &number, t, step));
     for (size_t b = 0; frames->parts.fluid && b < fluid_boundary_count(frames->parts.fluid); ++b) {
         const struct boundary *boundary = fluid_boundary(frames->parts.fluid, b);
         if (!boundary->wall_x[0])
@@ -193,7 +200,7 @@ int frames_write(struct frames *frames, double t, long step)
                                         .points = &boundary->wall_fields,
                                         .scalars = "Pressure",
                                         .vectors = "Velocity"};
-        int status = part_write_counted(frames, &writer, part, &number, t, step);
+        int status = part_write_numbered(&writer, part, &number, t, step);
         memory_free(name);
         CALL(status);
     }
@@ -201,15 +208,74 @@ int frames_write(struct frames *frames, double t, long step)
         char *name = memory_print("solid-%s", solid_name(frames->parts.solids[k]));
         CHECK_MEMORY(name);
         int status =
-            part_write_counted(frames, &writer, solid_part(frames->parts.solids[k], name), &number, t, step);
+            part_write_numbered(&writer, solid_part(frames->parts.solids[k], name), &number, t, step);
         memory_free(name);
         CALL(status);
     }
     CALL(surfaces_write(frames, &writer, &number, t, step));
     if (frames->parts.fluid && output->n_virtual_particles)
         CALL(virtual_write(frames, &writer, number, t, step));
-    ++frames->count;
     return pvd_write(&frames->pvd);
+}
+
+int frames_write(struct frames *frames, double t, long step)
+{
+    char label[32];
+    snprintf(label, sizeof label, "%06lld", (long long)frames->count);
+    CALL(frame_write(frames, label, t, step));
+    ++frames->count;
+    return 0;
+}
+
+int frames_write_extra(struct frames *frames, double t, long step)
+{
+    char label[32];
+    if (frames->pvd.n > 0 && frames->pvd.entries[frames->pvd.n - 1].time >= t)
+        return 0;
+    snprintf(label, sizeof label, "step%09ld", step);
+    return frame_write(frames, label, t, step);
+}
+
+/** Remove the files of the entries from @p first on. */
+static int later_remove(struct frames *frames, size_t first)
+{
+    for (size_t k = first; k < frames->pvd.n; ++k) {
+        char *path = memory_print("%s/%s", frames->folder, frames->pvd.entries[k].file);
+        CHECK_MEMORY(path);
+        if (unlink(path) && errno != ENOENT)
+            log_message(LOG_WARNING, "%s: cannot be removed: %s", path, strerror(errno));
+        memory_free(path);
+    }
+    return 0;
+}
+
+int frames_resume(struct frames *frames, double t)
+{
+    struct pvd *pvd = &frames->pvd;
+    if (access(pvd->path, F_OK) && errno == ENOENT) {
+        log_message(LOG_WARNING, "%s: is missing: the series begins anew", pvd->path);
+        return 0;
+    }
+    char *path = memory_text(pvd->path);
+    CHECK_MEMORY(path);
+    pvd_reset(pvd);
+    int status = pvd_read(pvd, path);
+    memory_free(path);
+    CALL(status);
+    const size_t all = pvd->n, kept = pvd_count(pvd, t);
+    if (kept == all)
+        return 0;
+    pvd->n = kept;
+    CALL(pvd_write(pvd));
+    pvd->n = all;
+    status = later_remove(frames, kept);
+    pvd->n = kept;
+    return status;
+}
+
+int frames_state(struct frames *frames, struct field_list *list)
+{
+    return field_list_add(list, &frames->state);
 }
 
 int frames_blowup(struct frames *frames, double t, long step)
@@ -225,12 +291,12 @@ int frames_blowup(struct frames *frames, double t, long step)
     return status;
 }
 
-int frames_count(const struct frames *frames)
+int64_t frames_count(const struct frames *frames)
 {
     return frames->count;
 }
 
 long frames_files(const struct frames *frames)
 {
-    return frames->files;
+    return (long)frames->pvd.n;
 }

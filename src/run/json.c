@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
 
 // Length of the UTF-8 sequence at @p text, 0 if it is none.
 static size_t sequence(const unsigned char *text)
@@ -45,4 +47,36 @@ void json_number(FILE *stream, double value)
         fprintf(stream, "%.17g", value);
     else
         fputs("null", stream);
+}
+
+// Behind "key": and blanks, or NULL.
+static const char *value_of(const char *text, const char *key)
+{
+    const size_t length = strlen(key);
+    for (const char *at = text; (at = strchr(at, '"')); ++at)
+        if (strncmp(at + 1, key, length) == 0 && strncmp(at + 1 + length, "\":", 2) == 0)
+            return at + length + 3 + strspn(at + length + 3, " ");
+    return NULL;
+}
+
+bool json_find_number(const char *text, const char *key, double *value)
+{
+    const char *found = value_of(text, key);
+    char *end;
+    const double number = found ? strtod(found, &end) : 0.0;
+    if (!found || end == found)
+        return false;
+    *value = number;
+    return true;
+}
+
+bool json_find_text(const char *text, const char *key, char *value, size_t size)
+{
+    const char *found = value_of(text, key);
+    const size_t length = found && *found == '"' ? strcspn(found + 1, "\"") : size;
+    if (length >= size)
+        return false;
+    memcpy(value, found + 1, length);
+    value[length] = '\0';
+    return true;
 }

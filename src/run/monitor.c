@@ -11,29 +11,37 @@ struct monitor {
     const struct model_history *definition;
     struct history file;
     bool open;
-    long next; /**< number of the next sample */
+    long count; /**< samples so far */
     struct solid_place place;
 };
 
 struct monitors {
     const struct model *model;
     const struct coupling *coupling;
+    char *folder;
     size_t n;
     struct monitor *monitors;
 };
 
-bool schedule_due(double every, double t, double step, long *next)
+long schedule_count(double every, double t, double step)
+{
+    return (long)floor((t + 1e-6 * step) / every) + 1;
+}
+
+bool schedule_due(double every, double t, double step, long *count)
 {
     if (every <= 0.0)
         return true;
-    if (t < (double)*next * every - 1e-6 * step)
+    const long now = schedule_count(every, t, step);
+    if (now <= *count)
         return false;
-    *next = (long)floor((t + 1e-6 * step) / every) + 1;
+    *count = now;
     return true;
 }
 
-/** Column names by kind and dimension: forces and energies of 2-D problems are per metre of depth. */
-static int columns_open(struct monitor *monitor, int dim, const char *path)
+/** Column names by kind and dimension (forces and energies of 2-D problems are per metre of depth); returns
+ * their number. */
+static int columns_of(const struct monitor *monitor, int dim, const char *const **columns)
 {
     static const char *const point[] = {
         "t [s]",     "x displacement [m]", "y displacement [m]", "z displacement [m]",
@@ -66,26 +74,34 @@ static int columns_open(struct monitor *monitor, int dim, const char *path)
     static const char *const energy3[] = {"t [s]", "fluid kinetic [J]", "solid kinetic [J]", "elastic [J]",
                                           "work on solids [J]"};
     static const char *const coupling[] = {"t [s]", "iterations [-]", "residual [m/s]"};
+    const bool deep = dim == 3;
     switch (monitor->definition->kind) {
     case HISTORY_POINT:
-        return history_create(&monitor->file, path, point, 7);
+        *columns = point;
+        return sizeof point / sizeof *point;
     case HISTORY_FORCE:
-        return history_create(&monitor->file, path, dim == 3 ? force3 : force2, 7);
+        *columns = deep ? force3 : force2;
+        return sizeof force2 / sizeof *force2;
     case HISTORY_GAUGE:
-        return history_create(&monitor->file, path, gauge, 7);
+        *columns = gauge;
+        return sizeof gauge / sizeof *gauge;
     case HISTORY_PROFILE:
-        return history_create(&monitor->file, path, profile, 11);
+        *columns = profile;
+        return sizeof profile / sizeof *profile;
     case HISTORY_VOLUME:
-        return history_create(&monitor->file, path, dim == 3 ? volume3 : volume2, 7);
+        *columns = deep ? volume3 : volume2;
+        return sizeof volume2 / sizeof *volume2;
     case HISTORY_ENERGY:
-        return history_create(&monitor->file, path, dim == 3 ? energy3 : energy2, 5);
+        *columns = deep ? energy3 : energy2;
+        return sizeof energy2 / sizeof *energy2;
     case HISTORY_COUPLING:
-        return history_create(&monitor->file, path, coupling, 3);
+        *columns = coupling;
+        return sizeof coupling / sizeof *coupling;
     }
-    return STATUS_DECK;
+    return 0;
 }
 
-static int monitor_open(struct monitors *monitors, struct monitor *monitor, const char *folder)
+static int monitor_place(const struct monitors *monitors, struct monitor *monitor)
 {
     const struct model_history *definition = monitor->definition;
     if (definition->kind == HISTORY_POINT)
@@ -95,9 +111,18 @@ static int monitor_open(struct monitors *monitors, struct monitor *monitor, cons
               monitors->model->path, definition->where.line, definition->where.column, definition->name,
               definition->from[0], definition->from[1], definition->from[2],
               monitors->model->meshes[definition->mesh].name);
-    char *path = memory_print("%s/history/%s.csv", folder, definition->name);
+    return 0;
+}
+
+/** Begin the file of a monitor, or go on after time *@p t. */
+static int monitor_open(const struct monitors *monitors, struct monitor *monitor, const double *t)
+{
+    const char *const *columns = NULL;
+    const int n = columns_of(monitor, monitors->model->dim, &columns);
+    char *path = memory_print("%s/history/%s.csv", monitors->folder, monitor->definition->name);
     CHECK_MEMORY(path);
-    int status = columns_open(monitor, monitors->model->dim, path);
+    const int status = t ? history_resume(&monitor->file, path, columns, n, *t)
+                         : history_create(&monitor->file, path, columns, n);
     memory_free(path);
     monitor->open = !status;
     return status;
@@ -111,13 +136,39 @@ int monitors_create(struct monitors **monitors, const struct model *model, const
     *monitors = m;
     m->model = model;
     m->coupling = coupling;
+    CHECK_MEMORY(m->folder = memory_text(folder));
     m->monitors = memory_create(model->output.n_histories, sizeof *m->monitors);
     CHECK_MEMORY(m->monitors);
     m->n = model->output.n_histories;
-    for (size_t k = 0; k < m->n; ++k)
+    for (size_t k = 0; k < m->n; ++k) {
         m->monitors[k].definition = &model->output.histories[k];
-    for (size_t k = 0; k < m->n; ++k)
-        CALL(monitor_open(m, &m->monitors[k], folder));
+        CALL(monitor_place(m, &m->monitors[k]));
+    }
+    return 0;
+}
+
+int monitors_start(struct monitors *monitors)
+{
+    for (size_t k = 0; k < monitors->n; ++k)
+        CALL(monitor_open(monitors, &monitors->monitors[k], NULL));
+    return 0;
+}
+
+int monitors_resume(struct monitors *monitors, double t, double step)
+{
+    for (size_t k = 0; k < monitors->n; ++k) {
+        struct monitor *monitor = &monitors->monitors[k];
+        CALL(monitor_open(monitors, monitor, &t));
+        if (monitor->definition->every > 0.0)
+            monitor->count = schedule_count(monitor->definition->every, t, step);
+    }
+    return 0;
+}
+
+int monitors_sync(const struct monitors *monitors)
+{
+    for (size_t k = 0; k < monitors->n; ++k)
+        CALL(history_sync(&monitors->monitors[k].file));
     return 0;
 }
 
@@ -229,7 +280,7 @@ int monitors_sample(struct monitors *monitors, double t, double step)
 {
     for (size_t k = 0; k < monitors->n; ++k) {
         struct monitor *monitor = &monitors->monitors[k];
-        if (schedule_due(monitor->definition->every, t, step, &monitor->next))
+        if (schedule_due(monitor->definition->every, t, step, &monitor->count))
             CALL(monitor_write(monitors, monitor, t));
     }
     return 0;
@@ -253,5 +304,6 @@ void monitors_destroy(struct monitors *monitors)
         return;
     monitors_close(monitors);
     memory_free(monitors->monitors);
+    memory_free(monitors->folder);
     memory_free(monitors);
 }

@@ -2,8 +2,6 @@
 #include "run/simulation.h"
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -13,23 +11,19 @@
 #include "revision.h"
 #include "run/folder.h"
 #include "run/frames.h"
+#include "run/interrupt.h"
 #include "run/monitor.h"
 #include "run/progress.h"
+#include "run/record.h"
+#include "run/saver.h"
+#include "run/status.h"
 #include "run/summary.h"
 #include "solid/solid.h"
 #include "wall/wall_list.h"
 
 #include <math.h>
-#include <signal.h>
 #include <string.h>
-
-/** The signal that asked the run to end; the one thing a handler may touch. */
-static volatile sig_atomic_t simulation_signal;
-
-static void signal_catch(int number)
-{
-    simulation_signal = number;
-}
+#include <unistd.h>
 
 /** Everything of one run. */
 struct simulation {
@@ -45,8 +39,16 @@ struct simulation {
     struct frames *frames;
     struct monitors *monitors;
     struct progress progress;
-    double t, started, status_written, updates;
-    long step, next_frame;
+    double started;     /**< of the time loop, as if all processes of the run had been one, s */
+    double wall_before; /**< time loops of the processes before this one, s */
+    double t, status_written, stop_looked, longest_step, updates;
+    int64_t step;
+    long frame_count; /**< frames that were due so far */
+    int lock;         /**< of the folder */
+    struct saver saver;
+    struct field_group state;
+    struct field state_fields[2];
+    const char *stopped_by; /**< what asked for the end; NULL: nothing */
 };
 
 int simulation_check(const struct model *model)
@@ -85,6 +87,13 @@ static int solids_create(struct simulation *s)
     return 0;
 }
 
+/** A run goes on with the instruction set that it began with where that is possible. */
+static const char *isa_choose(const struct run_options *options)
+{
+    const bool before = options->resume && strcmp(options->isa, "auto") == 0;
+    return before && fluid_isa_available(options->isa_before) ? options->isa_before : options->isa;
+}
+
 static int parts_create(struct simulation *s)
 {
     CALL(surfaces_create(s));
@@ -94,7 +103,7 @@ static int parts_create(struct simulation *s)
                                           .wall_types = wall_types,
                                           .n_wall_types = WALL_TYPES,
                                           .opening_types = open_boundary_types,
-                                          .isa = s->options->isa,
+                                          .isa = isa_choose(s->options),
                                           .timer = &s->timer};
         CALL(fluid_create(&s->fluid, s->model, &parts));
     }
@@ -115,6 +124,9 @@ static void simulation_reset(struct simulation *s)
         surface_destroy(s->surfaces[k]);
     memory_free(s->solids);
     memory_free(s->surfaces);
+    saver_reset(&s->saver);
+    if (s->lock >= 0)
+        close(s->lock);
     memory_free(s->folder);
 }
 
@@ -123,29 +135,124 @@ static size_t particles_now(const struct simulation *s)
     return s->fluid ? fluid_particles(s->fluid)->n : 0;
 }
 
+/** Everything that the next step reads, in the order of the checkpoint. */
+static int state_list(struct simulation *s)
+{
+    const struct field fields[] = {
+        {"Step", "-", FIELD_INT64, 1, FIELD_STATE, {&s->step}, NULL},
+        {"Time", "s", FIELD_DOUBLE, 1, FIELD_STATE, {&s->t}, NULL},
+    };
+    memcpy(s->state_fields, fields, sizeof fields);
+    s->state = (struct field_group){.name = "run",
+                                    .owner = s,
+                                    .count = &field_one,
+                                    .fields = s->state_fields,
+                                    .n_fields = sizeof fields / sizeof *fields};
+    struct field_list *list = &s->saver.state;
+    CALL(field_list_add(list, &s->state));
+    CALL(frames_state(s->frames, list));
+    return coupling_state(s->coupling, list);
+}
+
+static int log_begin(const struct simulation *s)
+{
+    char *log = memory_print("%s/log.txt", s->folder);
+    CHECK_MEMORY(log);
+    const int status = log_open(log);
+    memory_free(log);
+    return status;
+}
+
+static int view_open(const struct simulation *s)
+{
+    const struct view view = {.name = s->model->name,
+                              .dim = s->model->dim,
+                              .spacing = s->model->fluid.present ? s->model->fluid.spacing : 0.0,
+                              .colour = "Velocity"};
+    char *path = memory_print("%s/view.py", s->folder);
+    CHECK_MEMORY(path);
+    int status = view_write(&view, path);
+    memory_free(path);
+    return status;
+}
+
+/** A new run: its folder with what it needs to be repeated, its first evaluation. */
+static int run_begin(struct simulation *s)
+{
+    const struct run_options *options = s->options;
+    CALL(folder_create(s->folder, s->model, options->force, &s->lock));
+    CALL(log_begin(s));
+    CALL(record_create(s->folder, s->model, s->fluid ? fluid_isa(s->fluid) : NULL, options->n_overrides,
+                       options->overrides));
+    CALL(view_open(s));
+    return monitors_start(s->monitors);
+}
+
+/** What may make a resumed run differ from one that was not interrupted. */
+static void builds_compare(const struct simulation *s, const struct checkpoint_note *note)
+{
+    const char *isa = s->fluid ? fluid_isa(s->fluid) : "none";
+    if (strcmp(note->version, PACKAGE_VERSION) != 0 || strcmp(note->revision, SKERRY_REVISION) != 0)
+        log_message(LOG_WARNING,
+                    "the checkpoint was written by skerry %s (%s), this is %s (%s): results may differ from "
+                    "those of one program",
+                    note->version, note->revision, PACKAGE_VERSION, SKERRY_REVISION);
+    if (strcmp(note->isa, isa) != 0)
+        log_message(LOG_WARNING,
+                    "the run used the instruction set %s so far and %s from here: results differ in the last "
+                    "digits from those of one of them",
+                    note->isa, isa);
+}
+
+/** An interrupted run: its state, then its output cut back to that. */
+static int run_continue(struct simulation *s)
+{
+    const struct run_options *options = s->options;
+    const double step = s->model->time.step;
+    struct checkpoint_note note;
+    CALL(folder_lock(s->folder, &s->lock));
+    CALL(log_begin(s));
+    CALL(saver_read(&s->saver, &note));
+    builds_compare(s, &note);
+    CALL(coupling_resume(s->coupling));
+    CALL(frames_resume(s->frames, s->t));
+    CALL(monitors_resume(s->monitors, s->t, step));
+    const bool same = !s->fluid || strcmp(fluid_isa(s->fluid), options->isa_before) == 0;
+    CALL(record_add(s->folder, same ? NULL : fluid_isa(s->fluid),
+                    options->n_overrides - options->n_overrides_before,
+                    options->overrides + options->n_overrides_before));
+    if (s->model->output.every > 0.0)
+        s->frame_count = schedule_count(s->model->output.every, s->t, step);
+    s->updates = note.updates;
+    s->wall_before = note.wall_s;
+    memcpy(s->timer.seconds, note.phases_s, sizeof note.phases_s);
+    interrupt_stop_file(s->folder); /* it was meant for the process before */
+    log_message(LOG_INFO, "resumed from step %lld, t = %.6g s", (long long)s->step, s->t);
+    return 0;
+}
+
 static int output_open(struct simulation *s)
 {
     const struct run_options *options = s->options;
     s->folder = options->output ? memory_text(options->output) : memory_print("%s.out", s->model->name);
     CHECK_MEMORY(s->folder);
-    CALL(folder_create(s->folder, s->model, options->force));
-    char *log = memory_print("%s/log.txt", s->folder);
-    CHECK_MEMORY(log);
-    int status = log_open(log);
-    memory_free(log);
-    CALL(status);
+    CALL(saver_create(&s->saver, s->folder,
+                      options->checkpoint_every < 0.0 ? s->model->output.checkpoint_every
+                                                      : options->checkpoint_every));
     CALL(frames_create(&s->frames, s->model, &s->coupling->parts, s->folder));
-    return monitors_create(&s->monitors, s->model, s->coupling, s->folder);
+    CALL(monitors_create(&s->monitors, s->model, s->coupling, s->folder));
+    CALL(state_list(s));
+    return options->resume ? run_continue(s) : run_begin(s);
 }
 
 /** Whatever is due at this time. */
 static int output_sample(struct simulation *s)
 {
     double since = timer_now();
-    if (schedule_due(s->model->output.every, s->t, s->model->time.step, &s->next_frame)) {
+    if (schedule_due(s->model->output.every, s->t, s->model->time.step, &s->frame_count)) {
         CALL(frames_write(s->frames, s->t, s->step));
         char text[32];
-        snprintf(text, sizeof text, "frame %d", frames_count(s->frames) - 1);
+        snprintf(text, sizeof text, "frame %lld", (long long)frames_count(s->frames) - 1);
         progress_event(&s->progress, "frame", text);
     }
     CALL(monitors_sample(s->monitors, s->t, s->model->time.step));
@@ -160,7 +267,7 @@ static int status_report_write(struct simulation *s, const char *state)
     double steps, updates, iterations;
     progress_rates(&s->progress, &steps, &updates, &iterations);
     const struct status_report report = {.state = state,
-                                         .step = s->step,
+                                         .step = (long)s->step,
                                          .t = s->t,
                                          .t_end = s->model->time.end,
                                          .dt = s->model->time.step,
@@ -168,9 +275,12 @@ static int status_report_write(struct simulation *s, const char *state)
                                          .wall_s = timer_now() - s->started,
                                          .eta_s = progress_remaining(&s->progress),
                                          .updates_per_s = updates,
-                                         .particles = particles_now(s)};
+                                         .particles = particles_now(s),
+                                         .checkpoint_step = s->saver.step,
+                                         .checkpoint_t = s->saver.t};
     int status = status_write(&report, path);
     memory_free(path);
+    s->status_written = timer_now();
     return status;
 }
 
@@ -182,29 +292,84 @@ static bool run_ends(const struct simulation *s)
            (options->has_until && s->t >= options->until - tolerance);
 }
 
+/** A checkpoint of this step; histories last before it does. */
+static int state_save(struct simulation *s)
+{
+    struct checkpoint_note note = {
+        .step = s->step, .t = s->t, .wall_s = timer_now() - s->started, .updates = s->updates};
+    double since = timer_now();
+    memcpy(note.phases_s, s->timer.seconds, sizeof note.phases_s);
+    snprintf(note.version, sizeof note.version, "%s", PACKAGE_VERSION);
+    snprintf(note.revision, sizeof note.revision, "%s", SKERRY_REVISION);
+    snprintf(note.isa, sizeof note.isa, "%s", s->fluid ? fluid_isa(s->fluid) : "none");
+    CALL(monitors_sync(s->monitors));
+    CALL(saver_write(&s->saver, &note));
+    timer_lap(&s->timer, TIMER_OUTPUT, &since);
+    log_message(LOG_DETAIL, "checkpoint of step %lld, t = %.6g s", (long long)s->step, s->t);
+    progress_event(&s->progress, "checkpoint", "");
+    return 0;
+}
+
+/** Whether the wall-clock limit would pass with one more step and a checkpoint. */
+static bool wall_ends(const struct simulation *s)
+{
+    const double margin = 2.0 * s->longest_step + 2.0 * saver_cost(&s->saver);
+    return s->options->max_wall >= 0.0 && timer_now() - s->options->started + margin > s->options->max_wall;
+}
+
+/** Whether something asks for an early end; the file "stop" is looked for five times a second. */
+static bool stop_wanted(struct simulation *s)
+{
+    const double now = timer_now();
+    if (interrupt_stop())
+        s->stopped_by = strsignal(interrupt_stop());
+    else if (wall_ends(s))
+        s->stopped_by = "the wall-clock limit";
+    else if (now - s->stop_looked >= 0.2) {
+        s->stop_looked = now;
+        if (interrupt_stop_file(s->folder))
+            s->stopped_by = "the file \"stop\"";
+    }
+    return s->stopped_by;
+}
+
+/** Checkpoints that are due or asked for, and status.json, between two steps. */
+static int run_tend(struct simulation *s)
+{
+    if (interrupt_save()) {
+        CALL(frames_write_extra(s->frames, s->t, (long)s->step));
+        CALL(state_save(s));
+    } else if (saver_due(&s->saver)) {
+        CALL(state_save(s));
+    }
+    return timer_now() - s->status_written > 5.0 ? status_report_write(s, "running") : 0;
+}
+
 static int time_loop(struct simulation *s)
 {
     const double dt = s->model->time.step;
-    CALL(coupling_start(s->coupling, 0.0));
-    CALL(output_sample(s));
-    while (!run_ends(s) && !simulation_signal) {
+    if (!s->options->resume) {
+        CALL(coupling_start(s->coupling, 0.0));
+        CALL(output_sample(s));
+    }
+    CALL(status_report_write(s, "running"));
+    while (!run_ends(s) && !stop_wanted(s)) {
+        const double start = timer_now();
         CALL(coupling_step(s->coupling, s->t, dt));
         /* a product, not a sum: the same times whatever the number of steps before */
         s->t = (double)++s->step * dt;
         s->updates += (double)particles_now(s);
         CALL(output_sample(s));
-        progress_update(&s->progress, s->step, s->t, dt, particles_now(s),
+        progress_update(&s->progress, (long)s->step, s->t, dt, particles_now(s),
                         s->n_solids ? s->coupling->iterations : 0);
-        if (timer_now() - s->status_written > 5.0) {
-            CALL(status_report_write(s, "running"));
-            s->status_written = timer_now();
-        }
+        s->longest_step = fmax(s->longest_step, timer_now() - start);
+        CALL(run_tend(s));
     }
-    return 0;
+    return state_save(s);
 }
 
 /** Balances of the end state: mass, momentum and energy of the fluid, energies of the solids. */
-static size_t balances_fill(const struct simulation *s, struct summary_pair balances[8])
+static size_t balances_fill(const struct simulation *s, struct summary_pair balances[12])
 {
     struct summary_pair *b = balances;
     double mass = 0.0, momentum[3] = {0}, kinetic = 0.0;
@@ -222,6 +387,9 @@ static size_t balances_fill(const struct simulation *s, struct summary_pair bala
         *b++ = (struct summary_pair){"fluid momentum y", momentum[1], deep ? "kg m/s" : "kg/s"};
         *b++ = (struct summary_pair){"fluid kinetic energy", kinetic, deep ? "J" : "J/m"};
     }
+    static const char *const impulses[] = {"impulse on walls x", "impulse on walls y", "impulse on walls z"};
+    for (int k = 0; block && k < s->model->dim; ++k)
+        *b++ = (struct summary_pair){impulses[k], s->coupling->wall_impulse[k], deep ? "N s" : "N s/m"};
     double solid_kinetic = 0.0, elastic = 0.0, external = 0.0;
     for (size_t k = 0; k < s->n_solids; ++k) {
         struct solid_energies energies;
@@ -241,14 +409,18 @@ static size_t balances_fill(const struct simulation *s, struct summary_pair bala
 static size_t numbers_fill(const struct simulation *s, struct summary_pair numbers[8])
 {
     struct summary_pair *n = numbers;
-    *n++ = (struct summary_pair){"frames", frames_count(s->frames), NULL};
+    *n++ = (struct summary_pair){"frames", (double)frames_count(s->frames), NULL};
     if (s->fluid) {
-        long put_back = 0;
+        int64_t put_back = 0;
         for (size_t b = 0; b < fluid_boundary_count(s->fluid); ++b)
             put_back += fluid_boundary(s->fluid, b)->put_back_count;
         *n++ = (struct summary_pair){
             "bytes_per_particle", (double)fluid_bytes(s->fluid) / (double)fluid_particles(s->fluid)->n, NULL};
         *n++ = (struct summary_pair){"stable_step", fluid_stable_step(s->fluid), NULL};
+        int64_t born, removed;
+        fluid_openings_count(s->fluid, &born, &removed);
+        *n++ = (struct summary_pair){"born", (double)born, NULL};
+        *n++ = (struct summary_pair){"removed", (double)removed, NULL};
         *n++ = (struct summary_pair){"put_back", (double)put_back, NULL};
         *n++ = (struct summary_pair){"rebuilds", (double)fluid_rebuilds(s->fluid), NULL};
     }
@@ -257,7 +429,7 @@ static size_t numbers_fill(const struct simulation *s, struct summary_pair numbe
 
 static int summary_finish(struct simulation *s, int result)
 {
-    struct summary_pair balances[8], numbers[8];
+    struct summary_pair balances[12], numbers[8];
     struct summary_pair *parameters = memory_create(s->model->n_parameters, sizeof *parameters);
     char *path = memory_print("%s/summary.json", s->folder);
     int status = parameters && path ? 0 : STATUS_MEMORY;
@@ -267,12 +439,13 @@ static int summary_finish(struct simulation *s, int result)
     struct summary summary = {.version = PACKAGE_VERSION,
                               .revision = SKERRY_REVISION,
                               .deck = s->model->path,
+                              .deck_hash = s->model->inputs[0].hash,
                               .isa = s->fluid ? fluid_isa(s->fluid) : NULL,
                               .dim = s->model->dim,
                               .threads = parallel_threads(),
                               .status = result,
                               .particles = particles_now(s),
-                              .steps = s->step,
+                              .steps = (long)s->step,
                               .t = s->t,
                               .wall_s = timer_now() - s->started,
                               .updates = s->updates,
@@ -291,8 +464,6 @@ static int summary_finish(struct simulation *s, int result)
                               .numbers = numbers,
                               .timer = &s->timer};
     if (!status)
-        status = hash_file(s->model->path, &summary.deck_hash, NULL);
-    if (!status)
         status = summary_write(&summary, path);
     if (!status && !s->options->quiet)
         summary_print(&summary);
@@ -301,27 +472,21 @@ static int summary_finish(struct simulation *s, int result)
     return status;
 }
 
-/** SIGINT and SIGTERM end the run after the current step; a second one ends it at once. */
-static void signals_catch(void)
+/** The last words: how to go on. */
+static void stop_tell(const struct simulation *s)
 {
-    struct sigaction action = {.sa_handler = signal_catch, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    simulation_signal = 0;
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    log_message(LOG_WARNING,
+                "stopped early by %s at step %lld, t = %.6g s of %.6g s; to go on: skerry resume %s",
+                s->stopped_by, (long long)s->step, s->t, s->model->time.end, s->folder);
 }
 
-static int view_open(const struct simulation *s)
+static void failure_tell(struct simulation *s, int result)
 {
-    const struct view view = {.name = s->model->name,
-                              .dim = s->model->dim,
-                              .spacing = s->model->fluid.present ? s->model->fluid.spacing : 0.0,
-                              .colour = "Velocity"};
-    char *path = memory_print("%s/view.py", s->folder);
-    CHECK_MEMORY(path);
-    int status = view_write(&view, path);
-    memory_free(path);
-    return status;
+    if (result == STATUS_NUMERICAL)
+        frames_blowup(s->frames, s->t, (long)s->step);
+    if (s->saver.step >= 0)
+        log_message(LOG_INFO, "the newest checkpoint is of step %lld, t = %.6g s", (long long)s->saver.step,
+                    s->saver.t);
 }
 
 static int run_whole(struct simulation *s)
@@ -329,28 +494,35 @@ static int run_whole(struct simulation *s)
     const struct run_options *options = s->options;
     CALL(parts_create(s));
     CALL(output_open(s));
-    CALL(view_open(s));
-    signals_catch();
+    interrupt_catch();
     const double end = options->has_until ? fmin(options->until, s->model->time.end) : s->model->time.end;
-    const struct progress_setup setup = {
-        .quiet = options->quiet, .json = options->json, .t_end = end, .step_end = options->steps};
-    s->started = s->status_written = timer_now();
+    const struct progress_setup setup = {.quiet = options->quiet,
+                                         .json = options->json,
+                                         .t = s->t,
+                                         .t_end = end,
+                                         .step = (long)s->step,
+                                         .step_end = options->steps};
+    s->started = timer_now() - s->wall_before;
     progress_start(&s->progress, &setup);
     int result = time_loop(s);
-    if (!result && simulation_signal)
-        result = 128 + simulation_signal;
+    if (!result && s->stopped_by)
+        result = STATUS_STOPPED;
     progress_end(&s->progress, result);
-    if (result == STATUS_NUMERICAL)
-        frames_blowup(s->frames, s->t, s->step);
+    if (result == STATUS_STOPPED)
+        stop_tell(s);
+    else if (result)
+        failure_tell(s, result);
     int closed = monitors_close(s->monitors);
-    int status = status_report_write(s, result == 0 ? "done" : result > 128 ? "stopped" : "failed");
+    int status = status_report_write(s, result == 0                ? "done"
+                                        : result == STATUS_STOPPED ? "stopped"
+                                                                   : "failed");
     int summary = summary_finish(s, result);
     return result ? result : closed ? closed : status ? status : summary;
 }
 
 int simulation_run(const struct model *model, const struct run_options *options)
 {
-    struct simulation simulation = {.model = model, .options = options};
+    struct simulation simulation = {.model = model, .options = options, .lock = -1};
     parallel_setup(options->threads);
     int status = run_whole(&simulation);
     simulation_reset(&simulation);

@@ -164,22 +164,3 @@ void summary_print(const struct summary *summary)
         log_message(LOG_INFO, "%ld warnings", log_warnings());
     log_message(LOG_INFO, "%ld files written", summary->files);
 }
-
-int status_write(const struct status_report *report, const char *path)
-{
-    struct file_atomic file;
-    CALL(file_atomic_open(&file, path));
-    FILE *stream = file.stream;
-    fputs("{\n  \"state\": ", stream);
-    json_text(stream, report->state);
-    fprintf(stream, ",\n  \"step\": %ld,\n  \"particles\": %zu", report->step, report->particles);
-    number_pair(stream, "t", report->t);
-    number_pair(stream, "t_end", report->t_end);
-    number_pair(stream, "dt", report->dt);
-    number_pair(stream, "fraction", report->fraction);
-    number_pair(stream, "wall_s", report->wall_s);
-    number_pair(stream, "eta_s", report->eta_s < 0.0 ? NAN : report->eta_s);
-    number_pair(stream, "updates_per_s", report->updates_per_s);
-    fputs("\n}\n", stream);
-    return file_atomic_commit(&file);
-}

@@ -42,17 +42,4 @@ int summary_write(const struct summary *summary, const char *path);
 /** Tell the user: log messages of level LOG_INFO. */
 void summary_print(const struct summary *summary);
 
-/** Where a run is, for programs that look from outside. */
-struct status_report {
-    const char *state; /**< "running", "done", "failed", "stopped" */
-    long step;
-    double t, t_end, dt;
-    double fraction, wall_s, eta_s; /**< eta_s < 0: unknown (null) */
-    double updates_per_s;
-    size_t particles;
-};
-
-/** Write status.json at @p path, atomically. Returns 0, STATUS_IO or STATUS_MEMORY. */
-int status_write(const struct status_report *report, const char *path);
-
 #endif

@@ -108,34 +108,10 @@ static void test_summary(void **state)
     summary_print(&summary);
 }
 
-static void test_status(void **state)
-{
-    (void)state;
-    char text[1024];
-    const struct status_report report = {.state = "running",
-                                         .step = 5,
-                                         .t = 0.25,
-                                         .t_end = 2.5,
-                                         .dt = 0.05,
-                                         .fraction = 0.125,
-                                         .wall_s = 3.0,
-                                         .eta_s = -1.0,
-                                         .updates_per_s = 1.5e6,
-                                         .particles = 99};
-    assert_int_equal(status_write(&report, path), 0);
-    text_read(text, sizeof text);
-    assert_string_equal(text,
-                        "{\n  \"state\": \"running\",\n  \"step\": 5,\n  \"particles\": 99,\n  \"t\": 0.25,\n"
-                        "  \"t_end\": 2.5,\n  \"dt\": 0.050000000000000003,\n  \"fraction\": 0.125,\n"
-                        "  \"wall_s\": 3,\n  \"eta_s\": null,\n  \"updates_per_s\": 1500000\n}\n");
-    assert_int_equal(status_write(&report, "/nowhere/a.json"), STATUS_IO);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_summary, create, destroy),
-        cmocka_unit_test_setup_teardown(test_status, create, destroy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
