@@ -11,3 +11,8 @@ TESTS += tests/system/test_bad_decks.sh tests/system/test_cli.sh
 # Runs that end early.
 dist_check_SCRIPTS += tests/system/test_failures.sh
 TESTS += tests/system/test_failures.sh
+
+# Interrupted runs.
+dist_check_SCRIPTS += tests/system/test_resume.sh
+EXTRA_DIST += tests/system/test_resume.py tests/system/resume_decks.py
+TESTS += tests/system/test_resume.sh
