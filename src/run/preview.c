@@ -17,6 +17,7 @@ static const double neighbours[4] = {0, 6, 29, 113};            // in the suppor
 static const double bytes_per_particle = 350, bytes_per_neighbour = 6; // memory
 static const double bytes_per_node = 6000; // memory with the factorised matrix, 2-D
 static const double disk_per_value = 2.8;  // compressed, of 4 bytes
+static const double saved_per_particle = 154, saved_per_node = 192; // of a checkpoint, bytes
 
 /** What is counted before a run. */
 struct census {
@@ -144,13 +145,17 @@ static void print_costs(const struct model *model, const struct census *census, 
                           (double)census->nodes * bytes_per_node * (dim == 3 ? 4.0 : 1.0);
     const double values = n * (11.0 + (double)model->output.n_arrays) + (double)census->nodes * 16.0 +
                           (double)census->elements * 12.0;
-    const double disk = frames * values * disk_per_value * (model->output.float64 ? 2.0 : 1.0),
+    /* two checkpoints are kept while a third is written */
+    const double saved = 3.0 * (n * saved_per_particle + (double)census->nodes * saved_per_node);
+    const double disk = frames * values * disk_per_value * (model->output.float64 ? 2.0 : 1.0) + saved,
                  space = free_disk(output);
     const double seconds = steps * (n * ratio / updates_per_thread[dim] + (double)census->unknowns * 2e-6) /
                            (double)parallel_threads();
     print_bytes("memory     about ", memory, stream);
     print_bytes("\ndisk       about ", disk, stream);
-    fprintf(stream, " in %.0f frames", frames);
+    fprintf(stream, " in %.0f frames and", frames);
+    print_bytes(" ", saved, stream);
+    fputs(" of checkpoints", stream);
     if (space >= 0.0)
         print_bytes(", free: ", space, stream);
     fprintf(stream, "\nrun time   about %.0f %s with %d thread%s\n",

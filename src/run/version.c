@@ -4,6 +4,7 @@
 #include "fluid/fluid.h"
 #include "revision.h"
 
+#include <hdf5.h>
 #include <muParserDLL.h>
 #include <png.h>
 #include <suitesparse/cholmod.h>
@@ -22,6 +23,7 @@ void version_print(FILE *stream)
     fprintf(stream, "OpenMP          %d\n", _OPENMP);
     fprintf(stream, "CHOLMOD         %d.%d.%d\n", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION,
             CHOLMOD_SUBSUB_VERSION);
+    fprintf(stream, "HDF5            %d.%d.%d\n", H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);
     fprintf(stream, "libpng          %s\n", png_get_libpng_ver(NULL));
     fprintf(stream, "muParser        %s\n", parser ? mupGetVersion(parser) : "?");
     fprintf(stream, "zlib            %s\n", zlibVersion());
