@@ -10,7 +10,10 @@
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
+
+enum { LOCK_ATTEMPTS = 10 };
 
 /** What a run writes: names in the folder itself, and endings in its sub-folders. */
 static const char *const own_files[] = {"log.txt", "status.json", "summary.json",
@@ -114,7 +117,14 @@ static int subfolder_create(const char *path, const char *name)
 
 int folder_lock(const char *path, int *lock)
 {
-    CHECK(!file_lock_folder(path, lock), STATUS_CREATE,
+    /* "skerry status" holds the lock for a moment to see whether it is free */
+    const struct timespec moment = {.tv_nsec = 20000000};
+    int status = file_lock_folder(path, lock);
+    for (int attempt = 0; status && attempt < LOCK_ATTEMPTS; ++attempt) {
+        nanosleep(&moment, NULL);
+        status = file_lock_folder(path, lock);
+    }
+    CHECK(!status, STATUS_CREATE,
           "%s: another skerry is writing there (\"skerry status %s\" tells which); wait for it or stop it",
           path, path);
     return 0;

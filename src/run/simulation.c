@@ -339,6 +339,8 @@ static int run_tend(struct simulation *s)
     if (interrupt_save()) {
         CALL(frames_write_extra(s->frames, s->t, (long)s->step));
         CALL(state_save(s));
+        log_message(LOG_INFO, "frame and checkpoint of step %lld, t = %.6g s, as SIGUSR1 asks",
+                    (long long)s->step, s->t);
     } else if (saver_due(&s->saver)) {
         CALL(state_save(s));
     }
