@@ -7,8 +7,6 @@
 #include <stdint.h>
 #include <string.h>
 
-const size_t field_one = 1;
-
 size_t field_size(enum field_type type)
 {
     switch (type) {
@@ -72,6 +70,15 @@ size_t field_count_state(const struct field_group *group)
     for (size_t i = 0; i < group->n_fields; i++)
         n += (group->fields[i].flags & FIELD_STATE) != 0;
     return n;
+}
+
+struct field_group field_singles(const char *name, const void *owner, struct field *storage,
+                                 const struct field *fields, size_t n)
+{
+    static const size_t one = 1;
+    memcpy(storage, fields, n * sizeof *fields);
+    return (struct field_group){
+        .name = name, .owner = owner, .count = &one, .fields = storage, .n_fields = n};
 }
 
 int field_list_add(struct field_list *list, const struct field_group *group)

@@ -42,9 +42,6 @@ struct field_group {
     int (*resize)(void *owner, size_t count);
 };
 
-/** Count of groups of single values. */
-extern const size_t field_one;
-
 /** Groups whose STATE fields together are the state of something, in a fixed order. */
 struct field_list {
     size_t n, capacity;
@@ -63,6 +60,11 @@ void field_write(const struct field_group *group, const struct field *field, con
 
 /** Number of fields of a group that are state. */
 size_t field_count_state(const struct field_group *group);
+
+/** A group of single values (counters, times): the @p n @p fields are copied to @p storage, which has to last
+ * as long as the group. */
+struct field_group field_singles(const char *name, const void *owner, struct field *storage,
+                                 const struct field *fields, size_t n);
 
 /** Add a group to a list; one without state is left out. Returns 0 or STATUS_MEMORY. */
 int field_list_add(struct field_list *list, const struct field_group *group);

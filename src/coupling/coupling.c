@@ -40,12 +40,8 @@ static void state_register(struct coupling *coupling)
         {"TotalIterations", "-", FIELD_INT64, 1, FIELD_STATE, {&coupling->total_iterations}, NULL},
         {"WallImpulse", "N s", FIELD_DOUBLE, 3, FIELD_STATE, {coupling->wall_impulse}, NULL},
     };
-    memcpy(coupling->state_fields, fields, sizeof fields);
-    coupling->state = (struct field_group){.name = "coupling",
-                                           .owner = coupling,
-                                           .count = &field_one,
-                                           .fields = coupling->state_fields,
-                                           .n_fields = sizeof fields / sizeof *fields};
+    coupling->state =
+        field_singles("coupling", coupling, coupling->state_fields, fields, sizeof fields / sizeof *fields);
 }
 
 int coupling_create(struct coupling **coupling, const struct model *model, const struct coupling_parts *parts)

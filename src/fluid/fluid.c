@@ -108,12 +108,7 @@ static int opening_register(struct open_boundary *open)
     };
     char *name = memory_print("opening-%s", open->definition->name);
     CHECK_MEMORY(name);
-    memcpy(open->state_fields, fields, sizeof fields);
-    open->state = (struct field_group){.name = name,
-                                       .owner = open,
-                                       .count = &field_one,
-                                       .fields = open->state_fields,
-                                       .n_fields = sizeof fields / sizeof *fields};
+    open->state = field_singles(name, open, open->state_fields, fields, sizeof fields / sizeof *fields);
     return 0;
 }
 
@@ -201,12 +196,8 @@ static int state_register(struct fluid *fluid)
         {"NextId", "-", FIELD_INT64, 1, FIELD_STATE, {&fluid->block->next_id}, NULL},
         {"Rebuilds", "-", FIELD_INT64, 1, FIELD_STATE, {&fluid->rebuilds}, NULL},
     };
-    memcpy(fluid->state_fields, fields, sizeof fields);
-    fluid->state = (struct field_group){.name = "fluid-state",
-                                        .owner = fluid,
-                                        .count = &field_one,
-                                        .fields = fluid->state_fields,
-                                        .n_fields = sizeof fields / sizeof *fields};
+    fluid->state =
+        field_singles("fluid-state", fluid, fluid->state_fields, fields, sizeof fields / sizeof *fields);
     return particles_add_field(fluid->block, "ListedPosition", "m", 3, FIELD_STATE, fluid->listed);
 }
 

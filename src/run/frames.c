@@ -43,9 +43,8 @@ int frames_create(struct frames **frames, const struct model *model, const struc
     *frames = f;
     f->model = model;
     f->parts = *parts;
-    f->state_field = (struct field){"Frames", "-", FIELD_INT64, 1, FIELD_STATE, {&f->count}, NULL};
-    f->state = (struct field_group){
-        .name = "frames", .owner = f, .count = &field_one, .fields = &f->state_field, .n_fields = 1};
+    const struct field count = {"Frames", "-", FIELD_INT64, 1, FIELD_STATE, {&f->count}, NULL};
+    f->state = field_singles("frames", f, &f->state_field, &count, 1);
     f->folder = memory_text(folder);
     CHECK_MEMORY(f->folder);
     char *path = memory_print("%s/%s.pvd", folder, model->name);

@@ -15,8 +15,8 @@
 static const double updates_per_thread[4] = {0, 1e7, 3e6, 6e5}; // particle updates per second by dimension
 static const double neighbours[4] = {0, 6, 29, 113};            // in the support of the quintic spline
 static const double bytes_per_particle = 350, bytes_per_neighbour = 6; // memory
-static const double bytes_per_node = 6000; // memory with the factorised matrix, 2-D
-static const double disk_per_value = 2.8;  // compressed, of 4 bytes
+static const double bytes_per_node = 6000;                          // memory with the factorised matrix, 2-D
+static const double disk_per_value = 2.8;                           // compressed, of 4 bytes
 static const double saved_per_particle = 154, saved_per_node = 192; // of a checkpoint, bytes
 
 /** What is counted before a run. */

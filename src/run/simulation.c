@@ -142,12 +142,7 @@ static int state_list(struct simulation *s)
         {"Step", "-", FIELD_INT64, 1, FIELD_STATE, {&s->step}, NULL},
         {"Time", "s", FIELD_DOUBLE, 1, FIELD_STATE, {&s->t}, NULL},
     };
-    memcpy(s->state_fields, fields, sizeof fields);
-    s->state = (struct field_group){.name = "run",
-                                    .owner = s,
-                                    .count = &field_one,
-                                    .fields = s->state_fields,
-                                    .n_fields = sizeof fields / sizeof *fields};
+    s->state = field_singles("run", s, s->state_fields, fields, sizeof fields / sizeof *fields);
     struct field_list *list = &s->saver.state;
     CALL(field_list_add(list, &s->state));
     CALL(frames_state(s->frames, list));

@@ -88,7 +88,6 @@ int continuum_fields(struct continuum *continuum)
     };
     memcpy(continuum->node_fields, node_fields, sizeof node_fields);
     memcpy(continuum->cell_fields, cell_fields, sizeof cell_fields);
-    memcpy(continuum->state_fields, state_fields, sizeof state_fields);
     continuum->node_group_name = memory_print("solid-%s", continuum->definition->name);
     continuum->cell_group_name = memory_print("solid-%s-cells", continuum->definition->name);
     continuum->state_group_name = memory_print("solid-%s-state", continuum->definition->name);
@@ -104,11 +103,8 @@ int continuum_fields(struct continuum *continuum)
                                                  .count = &continuum->mesh->n_elements,
                                                  .fields = continuum->cell_fields,
                                                  .n_fields = CONTINUUM_CELL_FIELDS};
-    continuum->state_group = (struct field_group){.name = continuum->state_group_name,
-                                                  .owner = continuum,
-                                                  .count = &field_one,
-                                                  .fields = continuum->state_fields,
-                                                  .n_fields = CONTINUUM_STATE_FIELDS};
+    continuum->state_group = field_singles(continuum->state_group_name, continuum, continuum->state_fields,
+                                           state_fields, CONTINUUM_STATE_FIELDS);
     return 0;
 }
 

@@ -14,12 +14,8 @@ static int state_register(struct boundary *boundary)
     };
     char *name = memory_print("wall-%s-state", boundary->wall->name);
     CHECK_MEMORY(name);
-    memcpy(boundary->state_fields, fields, sizeof fields);
-    boundary->state = (struct field_group){.name = name,
-                                           .owner = boundary,
-                                           .count = &field_one,
-                                           .fields = boundary->state_fields,
-                                           .n_fields = boundary->type->put_back ? 2 : 1};
+    boundary->state =
+        field_singles(name, boundary, boundary->state_fields, fields, boundary->type->put_back ? 2 : 1);
     return 0;
 }
 
