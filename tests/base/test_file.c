@@ -198,6 +198,42 @@ static void make_folder_refuses_a_file_in_the_way(void **state)
     assert_int_equal(file_make_folder(""), STATUS_CREATE);
 }
 
+static void publish_renames_what_is_whole(void **state)
+{
+    (void)state;
+    put("data.tmp", "new");
+    put("data", "old");
+    assert_int_equal(file_publish("data.tmp", "data"), 0);
+    assert_false(exists("data.tmp"));
+    char *text;
+    size_t size;
+    assert_int_equal(file_read("data", 100, &text, &size), 0);
+    assert_string_equal(text, "new");
+    memory_free(text);
+    assert_int_equal(file_publish("data.tmp", "data"), STATUS_IO);
+    put("data.tmp", "newer");
+    assert_int_equal(file_publish("data.tmp", "no/data"), STATUS_IO);
+    assert_true(exists("data"));
+}
+
+static void one_process_has_a_folder(void **state)
+{
+    int first, second;
+
+    (void)state;
+    assert_int_equal(file_lock_folder(".", &first), 0);
+    assert_true(first >= 0);
+    // a second descriptor is as good as a second process
+    assert_int_equal(file_lock_folder(".", &second), STATUS_CREATE);
+    assert_int_equal(second, -1);
+    close(first);
+    assert_int_equal(file_lock_folder(".", &second), 0);
+    close(second);
+    // where there is nothing to lock, nothing is in the way
+    assert_int_equal(file_lock_folder("nowhere", &second), 0);
+    assert_int_equal(second, -1);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter, leave)
 
 int main(void)
@@ -213,6 +249,8 @@ int main(void)
         IN_FOLDER(read_refuses_what_is_no_small_file),
         IN_FOLDER(make_folder_makes_parents),
         IN_FOLDER(make_folder_refuses_a_file_in_the_way),
+        IN_FOLDER(publish_renames_what_is_whole),
+        IN_FOLDER(one_process_has_a_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,6 +47,33 @@ static void test_fields(void **state)
     particles_destroy(NULL);
 }
 
+// What a checkpoint does: room for another number of particles, then every field.
+static void test_resize(void **state)
+{
+    (void)state;
+    struct particles *block;
+    double *listed[3];
+    assert_int_equal(particles_create(&block, "fluid", 2, 3), 0);
+    assert_int_equal(particles_add_field(block, "Listed", "m", 3, 0, listed), 0);
+    append(block, 2);
+    assert_int_equal(block->fields.resize((void *)block->fields.owner, 50), 0);
+    assert_int_equal(block->n, 50);
+    assert_true(block->capacity >= 50);
+    const struct field *x = field_find(&block->fields, "Position");
+    double places[150];
+    for (int i = 0; i < 150; ++i)
+        places[i] = 2.385 * i;
+    field_write(&block->fields, x, places);
+    assert_true(block->x[1][49] == places[148]);
+    assert_int_equal(block->fields.resize((void *)block->fields.owner, 1), 0);
+    assert_int_equal(block->n, 1);
+    assert_false(field_find(&block->fields, "Pressure")->flags & FIELD_STATE);
+    particles_add_flags(block, "Pressure", FIELD_STATE);
+    assert_true(field_find(&block->fields, "Pressure")->flags & FIELD_STATE);
+    assert_true(field_find(&block->fields, "Pressure")->flags & FIELD_OUTPUT);
+    particles_destroy(block);
+}
+
 static void test_growth(void **state)
 {
     (void)state;
@@ -132,10 +159,8 @@ static void test_errors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fields),
-        cmocka_unit_test(test_growth),
-        cmocka_unit_test(test_permute),
-        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_fields),  cmocka_unit_test(test_resize), cmocka_unit_test(test_growth),
+        cmocka_unit_test(test_permute), cmocka_unit_test(test_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

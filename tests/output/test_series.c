@@ -137,12 +137,72 @@ static void test_history(void **state)
     assert_int_equal(history_close(&history), 0);
 }
 
+// Entries up to a time are the first ones, whatever part they are.
+static void test_pvd_count(void **state)
+{
+    char path[256];
+    struct pvd pvd;
+    assert_int_equal(pvd_create(&pvd, folder_file(*state, "run.pvd", path)), 0);
+    assert_int_equal(pvd_count(&pvd, 1.0), 0);
+    for (int i = 0; i < 3; ++i)
+        for (int part = 0; part < 2; ++part)
+            assert_int_equal(pvd_add(&pvd, 0.1 * i, part, "fluid", "f.vtu"), 0);
+    assert_int_equal(pvd_count(&pvd, -1e-300), 0);
+    assert_int_equal(pvd_count(&pvd, 0.0), 2);
+    assert_int_equal(pvd_count(&pvd, 0.1), 4);
+    assert_int_equal(pvd_count(&pvd, 0.2), 6);
+    pvd_reset(&pvd);
+}
+
+// A resumed history is what it would have been, whatever stood behind its last row.
+static void test_history_resume(void **state)
+{
+    char path[256];
+    struct history history;
+    const char *const columns[] = {"t [s]", "x, y [m]"}, *const others[] = {"t [s]", "x [m]"};
+    static const char *const tails[] = {"", "0.30000000000000004,3\n", "0.3000000000",
+                                        "0.30000000000000004,3\n0.4", "0.20000000000000001,7"};
+    const double rows[][2] = {{0.1, 1}, {0.2, 2}, {0.1 * 3, 2.385}};
+    const char *const whole = "t [s],\"x, y [m]\"\n0.10000000000000001,1\n0.20000000000000001,2\n"
+                              "0.30000000000000004,2.3849999999999998\n";
+    const size_t before = (size_t)(strstr(whole, "0.3") - whole);
+    folder_file(*state, "tip.csv", path);
+    for (size_t k = 0; k < sizeof tails / sizeof *tails; ++k) {
+        char text[256];
+        snprintf(text, sizeof text, "%.*s%s", (int)before, whole, tails[k]);
+        folder_write(path, text, strlen(text));
+        assert_int_equal(history_resume(&history, path, columns, 2, 0.2), 0);
+        assert_int_equal(history_row(&history, rows[2]), 0);
+        assert_int_equal(history_sync(&history), 0);
+        assert_int_equal(history_close(&history), 0);
+        char *back = folder_read(path, NULL);
+        assert_string_equal(back, whole);
+        free(back);
+    }
+    // a file that is not this history's is left alone
+    assert_int_equal(history_resume(&history, path, others, 2, 0.1), STATUS_IO);
+    char *back = folder_read(path, NULL);
+    assert_string_equal(back, whole);
+    free(back);
+    folder_write(path, "", 0);
+    assert_int_equal(history_resume(&history, path, columns, 2, 0.1), STATUS_IO);
+    // a missing one is begun
+    assert_int_equal(history_resume(&history, folder_file(*state, "other.csv", path), columns, 2, 0.1), 0);
+    assert_int_equal(history_row(&history, rows[0]), 0);
+    assert_int_equal(history_close(&history), 0);
+    back = folder_read(path, NULL);
+    assert_string_equal(back, "t [s],\"x, y [m]\"\n0.10000000000000001,1\n");
+    free(back);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_pvd, create, destroy),
         cmocka_unit_test_setup_teardown(test_pvd_errors, create, destroy),
         cmocka_unit_test_setup_teardown(test_history, create, destroy),
+        cmocka_unit_test_setup_teardown(test_pvd_count, create, destroy),
+        cmocka_unit_test_setup_teardown(test_history_resume, create, destroy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

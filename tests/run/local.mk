@@ -22,3 +22,8 @@ tests_run_test_contracts_SOURCES = tests/run/test_contracts.c tests/run/beam_dec
 tests_run_test_contracts_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
 tests_run_test_contracts_LDADD = $(test_libs)
 TESTS += tests/run/test_contracts
+
+check_PROGRAMS += tests/run/test_schedule
+tests_run_test_schedule_SOURCES = tests/run/test_schedule.c
+tests_run_test_schedule_LDADD = $(test_libs)
+TESTS += tests/run/test_schedule
