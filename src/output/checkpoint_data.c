@@ -28,9 +28,10 @@ static hid_t memory_type(enum field_type type)
 }
 
 /** HDF5 prints nothing and does not tidy up when the program ends: after a failed write that would fail
- * again. */
-static void library_quiet(void)
+ * again. It locks no files, which some network file systems cannot: the whole folder is locked already. */
+static void library_prepare(void)
 {
+    setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0);
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
@@ -132,7 +133,7 @@ static int group_save(hid_t file, const char *path, const struct field_group *gr
 
 int checkpoint_data_write(const char *path, const struct field_list *state)
 {
-    library_quiet();
+    library_prepare();
     errno = 0;
     const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     if (file < 0)
@@ -274,7 +275,7 @@ static int file_load(hid_t file, const struct field_list *state, char reason[CHE
 
 int checkpoint_data_read(const char *path, const struct field_list *state, char reason[CHECKPOINT_REASON])
 {
-    library_quiet();
+    library_prepare();
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) {
         snprintf(reason, CHECKPOINT_REASON, "it is no HDF5 file");

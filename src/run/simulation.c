@@ -489,9 +489,9 @@ static void failure_tell(struct simulation *s, int result)
 static int run_whole(struct simulation *s)
 {
     const struct run_options *options = s->options;
+    interrupt_catch();
     CALL(parts_create(s));
     CALL(output_open(s));
-    interrupt_catch();
     const double end = options->has_until ? fmin(options->until, s->model->time.end) : s->model->time.end;
     const struct progress_setup setup = {.quiet = options->quiet,
                                          .json = options->json,
