@@ -550,6 +550,7 @@ int main(int n, char **arguments)
 {
     parallel_wait_briefly(arguments);
     signal(SIGPIPE, SIG_IGN); // a reader that goes away gives a write error instead
+    signal(SIGXFSZ, SIG_IGN); // and so does a limit on the size of files
     int status = dispatch(n, arguments);
     if ((fflush(stdout) || ferror(stdout)) && !status)
         status = error_report(STATUS_IO, "standard output cannot be written");

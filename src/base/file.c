@@ -178,6 +178,20 @@ int file_read(const char *path, size_t limit, char **data, size_t *size)
     return status;
 }
 
+bool file_stays_below(const char *path)
+{
+    if (*path == '/' || *path == '\0')
+        return false;
+    for (const char *part = path;; ++part) {
+        const size_t length = strcspn(part, "/");
+        if (length == 2 && strncmp(part, "..", 2) == 0)
+            return false;
+        part += length;
+        if (!*part)
+            return true;
+    }
+}
+
 // Create one folder unless it is there; @p path may end with a slash.
 static int make_one_folder(const char *path)
 {

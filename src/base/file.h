@@ -2,6 +2,7 @@
 #ifndef BASE_FILE_H
 #define BASE_FILE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -34,6 +35,9 @@ int file_lock_folder(const char *path, int *lock);
  * with memory_free. Returns 0, STATUS_NO_INPUT (missing, a folder, not a regular file, too large: reported)
  * or STATUS_IO. */
 int file_read(const char *path, size_t limit, char **data, size_t *size);
+
+/** Whether a path that was read from a file stays below the folder that it is relative to. */
+bool file_stays_below(const char *path);
 
 /** Create a folder and its parents. Returns 0 or STATUS_CREATE. */
 int file_make_folder(const char *path);

@@ -61,3 +61,24 @@ void hash_print(uint64_t hash, char text[HASH_TEXT])
 {
     snprintf(text, HASH_TEXT, "fnv1a64:%016" PRIx64, hash);
 }
+
+void hash_seal(FILE *stream, const char *text)
+{
+    char hash[HASH_TEXT];
+    hash_print(hash_bytes(text, strlen(text)), hash);
+    fprintf(stream, "%send %s\n", text, hash);
+}
+
+bool hash_unseal(char *text, size_t size)
+{
+    char wanted[HASH_TEXT];
+    const size_t tail = strlen("end ") + HASH_TEXT - 1 + 1;
+    if (size < tail || strlen(text) != size)
+        return false;
+    char *last = text + size - tail;
+    hash_print(hash_bytes(text, (size_t)(last - text)), wanted);
+    const bool good = strncmp(last, "end ", 4) == 0 && strncmp(last + 4, wanted, HASH_TEXT - 1) == 0 &&
+                      text[size - 1] == '\n';
+    *last = '\0';
+    return good;
+}

@@ -43,13 +43,12 @@ static char *manifest_text(const struct checkpoint_note *note, const struct chec
 int checkpoint_manifest_write(const char *path, const struct checkpoint_note *note,
                               const struct checkpoint_file *file)
 {
-    char hash[HASH_TEXT], *text = manifest_text(note, file);
+    char *text = manifest_text(note, file);
     CHECK(text, STATUS_MEMORY, "out of memory: cannot make the manifest of a checkpoint");
     struct file_atomic out;
     int status = file_atomic_open(&out, path);
     if (!status) {
-        hash_print(hash_bytes(text, strlen(text)), hash);
-        fprintf(out.stream, "%send %s\n", text, hash);
+        hash_seal(out.stream, text);
         status = file_atomic_commit(&out);
     }
     free(text);
@@ -90,21 +89,6 @@ static bool word_take(char **rest, const char *key, char *word, size_t size)
     return text != NULL;
 }
 
-/** Whether the last line is the hash of those before it; it is cut off. */
-static bool hash_good(char *text, size_t size)
-{
-    char hash[HASH_TEXT];
-    const size_t tail = strlen("end ") + HASH_TEXT - 1 + 1;
-    if (strlen(text) != size || size <= tail)
-        return false;
-    char *last = text + size - tail;
-    hash_print(hash_bytes(text, (size_t)(last - text)), hash);
-    const bool good = strncmp(last, "end ", 4) == 0 && strncmp(last + 4, hash, HASH_TEXT - 1) == 0 &&
-                      text[size - 1] == '\n' && last[-1] == '\n';
-    *last = '\0';
-    return good;
-}
-
 static bool lines_take(char *rest, struct checkpoint_note *note, struct checkpoint_file *file)
 {
     char hash[HASH_TEXT], key[32];
@@ -136,7 +120,7 @@ int checkpoint_manifest_read(const char *path, struct checkpoint_note *note, str
     const int status = file_read(path, MANIFEST_LIMIT, &text, &size);
     if (status == STATUS_MEMORY)
         return status;
-    const bool whole = !status && hash_good(text, size);
+    const bool whole = !status && hash_unseal(text, size);
     const bool known = whole && lines_take(text, note, file);
     memory_free(text);
     if (known)

@@ -92,8 +92,8 @@ static int entry_read(struct pvd *pvd, const struct xml_span *tag)
               xml_attribute(tag, "name", entry.name, sizeof entry.name) &&
               xml_attribute(tag, "file", entry.file, sizeof entry.file),
           STATUS_IO, "%s: damaged: entry %zu is not as skerry writes it", pvd->path, pvd->n);
-    CHECK(entry.file[0] != '/' && !strstr(entry.file, ".."), STATUS_IO,
-          "%s: entry %zu leads out of the folder (%s)", pvd->path, pvd->n, entry.file);
+    CHECK(file_stays_below(entry.file), STATUS_IO, "%s: entry %zu leads out of the folder (%s)", pvd->path,
+          pvd->n, entry.file);
     return pvd_add(pvd, entry.time, (int)part, entry.name, entry.file);
 }
 

@@ -7,7 +7,7 @@
 struct pvd_entry {
     double time;
     int part;
-    char name[64];  /**< "fluid" */
+    char name[96];  /**< "fluid" */
     char file[192]; /**< relative to the .pvd */
 };
 

@@ -5,11 +5,13 @@
 #include <stdbool.h>
 
 /** What can ask a run to stop or to save itself from outside. Signals are the process's, so the handlers'
- * two variables are the one state that is not in an object. */
+ * variables are the one state that is not in an object. */
 
-/** Let SIGINT, SIGTERM, SIGHUP and SIGXCPU ask for a stop, and SIGUSR1 for a checkpoint and a frame; a
- * second signal to stop has its usual effect at once. What the parent process ignores (nohup, background
- * jobs of a shell) stays ignored, but for SIGUSR1. */
+/** Let SIGINT, SIGTERM, SIGHUP and SIGXCPU ask for a stop, and SIGUSR1 for a checkpoint and a frame. A second
+ * signal to stop has its usual effect at once, but not within half a second: timeout(1), service managers and
+ * terminals that close send a signal, or two kinds of it, twice. Nor has SIGXCPU, which comes again every
+ * second of CPU time. What the parent process ignores (nohup, background jobs of a shell) stays ignored, but
+ * for SIGUSR1. */
 void interrupt_catch(void);
 
 /** Number of the signal that asked for a stop; 0: none. */

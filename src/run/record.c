@@ -81,8 +81,15 @@ static void lines_print(FILE *stream, const char *isa, size_t n_overrides, const
 int record_create(const char *output, const struct model *model, const char *isa, size_t n_overrides,
                   const char *const *overrides)
 {
-    for (size_t k = 0; k < model->n_inputs; ++k)
+    for (size_t k = 0; k < model->n_inputs; ++k) {
+        const char *name = model->inputs[k].name;
+        CHECK(
+            strcmp(name, "record") != 0 && !strchr(name, '\n'), STATUS_CREATE,
+            "%s: cannot be copied to %s/input, where \"record\" is skerry's own file and a name is one line: "
+            "rename it",
+            model->inputs[k].path, output);
         CALL(input_copy(output, &model->inputs[k]));
+    }
     char *text = NULL, hash[HASH_TEXT];
     size_t size;
     FILE *stream = open_memstream(&text, &size);
@@ -124,8 +131,8 @@ static int file_line(const char *output, const char *line)
     int name = 0;
     CHECK(sscanf(line, "fnv1a64:%" SCNx64 " %zu %n", &wanted, &wanted_size, &name) == 2 && name > 0,
           STATUS_IO, "%s/input/record: damaged: \"%s\"", output, line);
-    CHECK(line[name] != '/' && !strstr(line + name, ".."), STATUS_IO,
-          "%s/input/record: \"%s\" leads out of the folder", output, line + name);
+    CHECK(file_stays_below(line + name), STATUS_IO, "%s/input/record: \"%s\" leads out of the folder", output,
+          line + name);
     char *path = memory_print("%s/input/%s", output, line + name);
     CHECK_MEMORY(path);
     int status = hash_file(path, &hash, &size);
@@ -232,7 +239,7 @@ int record_remove(const char *output)
     for (char *line = text, *end; !status && line && (end = strchr(line, '\n')); line = end + 1) {
         int name = 0;
         *end = '\0';
-        if (sscanf(line, "file %*s %*s %n", &name) != 0 || name == 0 || strstr(line + name, ".."))
+        if (sscanf(line, "file %*s %*s %n", &name) != 0 || name == 0 || !file_stays_below(line + name))
             continue;
         char *file = memory_print("%s/input/%s", output, line + name);
         status = file ? 0 : STATUS_MEMORY;
@@ -240,7 +247,7 @@ int record_remove(const char *output)
             status = error_report(STATUS_CREATE, "%s: cannot remove: %s", file, strerror(errno));
         memory_free(file);
     }
-    if (!status && text && unlink(path))
+    if (!status && text && unlink(path) && errno != ENOENT)
         status = error_report(STATUS_CREATE, "%s: cannot remove: %s", path, strerror(errno));
     memory_free(text);
     memory_free(path);

@@ -198,6 +198,18 @@ static void make_folder_refuses_a_file_in_the_way(void **state)
     assert_int_equal(file_make_folder(""), STATUS_CREATE);
 }
 
+static void paths_that_stay_below(void **state)
+{
+    static const char *const good[] = {"a", "a/b", "a..b", "..a/b..", "a/...", "./a"};
+    static const char *const bad[] = {"", "/a", "..", "../a", "a/..", "a/../b"};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof good / sizeof *good; k++)
+        assert_true(file_stays_below(good[k]));
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+        assert_false(file_stays_below(bad[k]));
+}
+
 static void publish_renames_what_is_whole(void **state)
 {
     (void)state;
@@ -249,6 +261,7 @@ int main(void)
         IN_FOLDER(read_refuses_what_is_no_small_file),
         IN_FOLDER(make_folder_makes_parents),
         IN_FOLDER(make_folder_refuses_a_file_in_the_way),
+        IN_FOLDER(paths_that_stay_below),
         IN_FOLDER(publish_renames_what_is_whole),
         IN_FOLDER(one_process_has_a_folder),
     };

@@ -71,9 +71,9 @@ static void test_pvd_errors(void **state)
     folder_file(folder, "damaged.pvd", damaged);
     assert_int_equal(pvd_create(&pvd, path), 0);
     memset(letters, 'a', sizeof letters);
-    letters[64] = '\0';
+    letters[96] = '\0';
     assert_int_equal(pvd_add(&pvd, 0, 0, letters, "f.vtu"), STATUS_IO);
-    letters[64] = 'a';
+    letters[96] = 'a';
     letters[192] = '\0';
     assert_int_equal(pvd_add(&pvd, 0, 0, "fluid", letters), STATUS_IO);
     assert_int_equal(pvd.n, 0);
