@@ -12,6 +12,11 @@
 
 static const long long twice = 500000000; // ns
 
+static const struct {
+    int number;
+    const char *name;
+} stops[] = {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGXCPU, "SIGXCPU"}};
+
 static volatile sig_atomic_t stop_signal, save_wanted;
 static atomic_llong stopped_at; // ns; 0: not yet. Any thread may be the one that catches a signal.
 
@@ -39,21 +44,23 @@ static void save_catch(int number)
 
 void interrupt_catch(void)
 {
-    static const int stops[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
     struct sigaction action = {.sa_handler = stop_catch, .sa_flags = SA_RESTART}, before;
     sigemptyset(&action.sa_mask);
     stop_signal = save_wanted = 0;
     atomic_store(&stopped_at, 0);
     for (size_t k = 0; k < sizeof stops / sizeof *stops; ++k)
-        if (sigaction(stops[k], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-            sigaction(stops[k], &action, NULL);
+        if (sigaction(stops[k].number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(stops[k].number, &action, NULL);
     action.sa_handler = save_catch;
     sigaction(SIGUSR1, &action, NULL);
 }
 
-int interrupt_stop(void)
+const char *interrupt_stop(void)
 {
-    return stop_signal;
+    for (size_t k = 0; k < sizeof stops / sizeof *stops; ++k)
+        if (stop_signal == stops[k].number)
+            return stops[k].name;
+    return NULL;
 }
 
 bool interrupt_save(void)

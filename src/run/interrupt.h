@@ -14,8 +14,8 @@
  * for SIGUSR1. */
 void interrupt_catch(void);
 
-/** Number of the signal that asked for a stop; 0: none. */
-int interrupt_stop(void);
+/** Name of the signal that asked for a stop ("SIGTERM"); NULL: none. */
+const char *interrupt_stop(void);
 
 /** Whether SIGUSR1 has come since the last call. */
 bool interrupt_save(void);

@@ -316,11 +316,10 @@ static bool wall_ends(const struct simulation *s)
 static bool stop_wanted(struct simulation *s)
 {
     const double now = timer_now();
-    if (interrupt_stop())
-        s->stopped_by = strsignal(interrupt_stop());
-    else if (wall_ends(s))
+    s->stopped_by = interrupt_stop();
+    if (!s->stopped_by && wall_ends(s))
         s->stopped_by = "the wall-clock limit";
-    else if (now - s->stop_looked >= 0.2) {
+    if (!s->stopped_by && now - s->stop_looked >= 0.2) {
         s->stop_looked = now;
         if (interrupt_stop_file(s->folder))
             s->stopped_by = "the file \"stop\"";
