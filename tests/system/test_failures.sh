@@ -80,10 +80,10 @@ beam "-4000000 0" >inverts.xml
 ends 70 'element' inverts.xml
 test -s inverts.xml.out/blowup.vtu || fail "no blowup.vtu after an inverted element"
 
-# Signals: the step is finished, every file is whole, the exit code is 128 + signal.
+# Signals: the step is finished, every file is whole, there is a checkpoint, the exit code is 75.
 box 0.00125 "0 -0.1" left sides >signal.xml
 for signal in INT TERM; do
-    case $signal in INT) code=130 ;; *) code=143 ;; esac
+    code=75
     # A shell starts background jobs with SIGINT ignored; env resets it where it can.
     env --default-signal=INT "$skerry" run signal.xml -q -j 1 -o "signal-$signal" 2>"$work/stderr" &
     pid=$!
@@ -102,6 +102,9 @@ for signal in INT TERM; do
         tail -c 12 "signal-$signal/$file" | grep -q '</VTKFile>' || fail "SIG$signal: $file is not whole"
     done
     grep -q '"status": *'$code "signal-$signal/summary.json" || fail "SIG$signal: summary.json does not say $code"
+    test -s "$(ls "signal-$signal"/checkpoint/step_*.manifest)" || fail "SIG$signal: no checkpoint"
+    grep -q "stopped early by SIG$signal .* skerry resume signal-$signal" "$work/stderr" ||
+        fail "SIG$signal: not told how to go on: $(cat "$work/stderr")"
     test -z "$(find "signal-$signal" -name '*.tmp')" || fail "SIG$signal: temporary files left"
 done
 
