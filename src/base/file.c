@@ -65,9 +65,16 @@ int file_atomic_commit(struct file_atomic *file)
     int error = 0;
 
     errno = 0;
-    if (ferror(stream) || fflush(stream) || ferror(stream))
+    if (ferror(stream)) {
+        // Which error that was is not known any more; what made a write fail makes another one fail.
+        clearerr(stream);
+        if (fseek(stream, 0, SEEK_END) == 0 && fputc('\n', stream) != EOF)
+            fflush(stream);
         failed = "write";
-    else if (fsync(fileno(stream)))
+    } else if (fflush(stream)) {
+        failed = "write";
+    }
+    if (!failed && fsync(fileno(stream)))
         failed = "sync";
     error = errno;
     file->stream = NULL;

@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "base/memory.h"
 
-#include <errno.h>
 #include <hdf5.h>
 #include <math.h>
 #include <stdio.h>
@@ -45,12 +44,18 @@ static herr_t error_take(unsigned number, const H5E_error2_t *error, void *conte
     return 0;
 }
 
-static int report_failed(const char *path, const char *what)
+/** Why the last call failed: the system's error number, or -1. The next call of HDF5 forgets it. */
+static int failure(void)
 {
     int number = 0;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, error_take, &number);
+    return number > 0 ? number : -1;
+}
+
+static int report_failed(const char *path, const char *what, int reason)
+{
     return error_report(STATUS_IO, "%s: cannot write%s%s: %s", path, *what ? " " : "", what,
-                        number ? strerror(number) : "HDF5 failed");
+                        reason > 0 ? strerror(reason) : "HDF5 failed");
 }
 
 static bool is_finite(const struct field *field, const void *values, size_t i)
@@ -77,8 +82,9 @@ static int field_shape(const struct field_group *group, const struct field *fiel
     return field->components > 1 ? 2 : 1;
 }
 
-static bool dataset_create(hid_t parent, const struct field_group *group, const struct field *field,
-                           const void *values)
+/** Returns 0, or why it failed. */
+static int dataset_create(hid_t parent, const struct field_group *group, const struct field *field,
+                          const void *values)
 {
     hsize_t shape[2];
     const int rank = field_shape(group, field, shape);
@@ -87,14 +93,15 @@ static bool dataset_create(hid_t parent, const struct field_group *group, const 
     H5Pset_obj_track_times(properties, false);
     const hid_t set =
         H5Dcreate2(parent, field->name, file_type(field->type), space, H5P_DEFAULT, properties, H5P_DEFAULT);
-    bool good = set >= 0;
-    if (good && *group->count > 0)
-        good = H5Dwrite(set, memory_type(field->type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
-    if (set >= 0)
-        good &= H5Dclose(set) >= 0;
+    int reason = set < 0 ? failure() : 0;
+    if (!reason && *group->count > 0 &&
+        H5Dwrite(set, memory_type(field->type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+        reason = failure();
+    if (set >= 0 && H5Dclose(set) < 0 && !reason)
+        reason = failure();
     H5Sclose(space);
     H5Pclose(properties);
-    return good;
+    return reason;
 }
 
 static int field_save(hid_t parent, const char *path, const struct field_group *group,
@@ -106,9 +113,8 @@ static int field_save(hid_t parent, const char *path, const struct field_group *
     CHECK(bad == n, STATUS_NUMERICAL,
           "the state is not finite: %s of %s, item %zu, component %zu; no checkpoint is made of it",
           field->name, group->name, bad / (size_t)field->components, bad % (size_t)field->components);
-    if (!dataset_create(parent, group, field, values))
-        return report_failed(path, field->name);
-    return 0;
+    const int reason = dataset_create(parent, group, field, values);
+    return reason ? report_failed(path, field->name, reason) : 0;
 }
 
 static int group_save(hid_t file, const char *path, const struct field_group *group)
@@ -121,12 +127,12 @@ static int group_save(hid_t file, const char *path, const struct field_group *gr
     void *values = memory_create(*group->count, largest);
     CHECK_MEMORY(values);
     const hid_t parent = H5Gcreate2(file, group->name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    int status = parent >= 0 ? 0 : report_failed(path, group->name);
+    int status = parent >= 0 ? 0 : report_failed(path, group->name, failure());
     for (size_t f = 0; f < group->n_fields && !status; ++f)
         if (group->fields[f].flags & FIELD_STATE)
             status = field_save(parent, path, group, &group->fields[f], values);
     if (parent >= 0 && H5Gclose(parent) < 0 && !status)
-        status = report_failed(path, group->name);
+        status = report_failed(path, group->name, failure());
     memory_free(values);
     return status;
 }
@@ -134,15 +140,14 @@ static int group_save(hid_t file, const char *path, const struct field_group *gr
 int checkpoint_data_write(const char *path, const struct field_list *state)
 {
     library_prepare();
-    errno = 0;
     const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     if (file < 0)
-        return report_failed(path, "");
+        return report_failed(path, "", failure());
     int status = 0;
     for (size_t g = 0; g < state->n && !status; ++g)
         status = group_save(file, path, state->groups[g]);
     if (H5Fclose(file) < 0 && !status)
-        status = report_failed(path, "");
+        status = report_failed(path, "", failure());
     return status;
 }
 

@@ -16,3 +16,8 @@ TESTS += tests/system/test_failures.sh
 dist_check_SCRIPTS += tests/system/test_resume.sh
 EXTRA_DIST += tests/system/test_resume.py tests/system/resume_decks.py
 TESTS += tests/system/test_resume.sh
+
+# Faults from outside.
+dist_check_SCRIPTS += tests/system/test_faults.sh
+EXTRA_DIST += tests/system/test_faults.py
+TESTS += tests/system/test_faults.sh
