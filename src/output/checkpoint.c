@@ -34,7 +34,7 @@ static int64_t step_of(const char *name, const char **ending)
     return errno ? -1 : step;
 }
 
-/** Steps of all manifests, newest first; freed with memory_free. */
+/** Steps of all manifests, newest first; freed with memory_free. A folder that is not there has none. */
 static int steps_find(const char *folder, int64_t **steps, size_t *n)
 {
     DIR *directory = opendir(folder);
@@ -42,6 +42,7 @@ static int steps_find(const char *folder, int64_t **steps, size_t *n)
     void *found = NULL;
     int status = 0;
     *n = 0;
+    CHECK(directory || errno == ENOENT, STATUS_IO, "%s: cannot read the folder: %s", folder, strerror(errno));
     for (const struct dirent *entry; directory && !status && (entry = readdir(directory));) {
         const char *ending = "";
         const int64_t step = step_of(entry->d_name, &ending);
@@ -132,7 +133,9 @@ static int file_verify(const char *path, const struct checkpoint_file *file, cha
 {
     uint64_t hash;
     size_t size;
-    if (hash_file(path, &hash, &size))
+    if (access(path, R_OK))
+        snprintf(reason, CHECKPOINT_REASON, "its data cannot be read: %s", strerror(errno));
+    else if (hash_file(path, &hash, &size))
         snprintf(reason, CHECKPOINT_REASON, "its data cannot be read");
     else if (size != file->size)
         snprintf(reason, CHECKPOINT_REASON, "its data have %zu bytes instead of %zu", size, file->size);

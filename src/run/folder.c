@@ -143,7 +143,7 @@ int folder_create(const char *path, const struct model *model, bool force, int *
     CALL(folder_lock(path, lock));
     if (!empty)
         CALL(old_run_remove(path, model));
-    static const char *const subfolders[] = {"fields", "history", "input"};
+    static const char *const subfolders[] = {"fields", "history", "input", "checkpoint"};
     for (size_t k = 0; k < sizeof subfolders / sizeof *subfolders; ++k)
         CALL(subfolder_create(path, subfolders[k]));
     return 0;

@@ -6,9 +6,9 @@
 
 #include <stdbool.h>
 
-/** Make the output folder @p path with its sub-folders fields, history and input, and lock it. A folder that
- * holds anything is refused (STATUS_CREATE) unless @p force; then only files that a run writes there are
- * removed. */
+/** Make the output folder @p path with its sub-folders, also those that are filled later only, and lock it. A
+ * folder that holds anything is refused (STATUS_CREATE) unless @p force; then only files that a run writes
+ * there are removed. */
 int folder_create(const char *path, const struct model *model, bool force, int *lock);
 
 /** Keep other processes from writing into an output folder: *@p lock is a descriptor to close at the end, or

@@ -18,7 +18,7 @@ enum { FILE_LIMIT = 1 << 30, RECORD_LIMIT = 1 << 24 }; // bytes
 static const char first_line[] = "skerry-input 1\n";
 
 /** Write @p size bytes of @p text to @p path, atomically. */
-static int text_save(const char *path, const char *text, size_t size)
+static int bytes_save(const char *path, const char *text, size_t size)
 {
     struct file_atomic file;
     CALL(file_atomic_open(&file, path));
@@ -44,7 +44,7 @@ static int input_copy(const char *output, const struct model_input *input)
     if (!status)
         status = file_make_folder(folder);
     if (!status)
-        status = text_save(target, text, size);
+        status = bytes_save(target, text, size);
     memory_free(folder);
     memory_free(target);
     memory_free(text);
@@ -60,11 +60,16 @@ static void set_print(FILE *stream, const char *override)
     fputc('\n', stream);
 }
 
-static int record_save(const char *output, const char *text, size_t size)
+static int record_save(const char *output, const char *text)
 {
+    struct file_atomic file;
     char *path = memory_print("%s/input/record", output);
     CHECK_MEMORY(path);
-    const int status = text_save(path, text, size);
+    int status = file_atomic_open(&file, path);
+    if (!status) {
+        hash_seal(file.stream, text);
+        status = file_atomic_commit(&file);
+    }
     memory_free(path);
     return status;
 }
@@ -101,26 +106,31 @@ int record_create(const char *output, const struct model *model, const char *isa
     }
     lines_print(stream, isa, n_overrides, overrides);
     const int status = fclose(stream) ? error_report(STATUS_MEMORY, "out of memory: cannot record the run")
-                                      : record_save(output, text, size);
+                                      : record_save(output, text);
     free(text);
     return status;
 }
 
-static int record_text(const char *output, char **text, size_t *size)
+/** The record without its last line. */
+static int record_text(const char *output, char **text)
 {
+    size_t size;
     char *path = memory_print("%s/input/record", output);
     CHECK_MEMORY(path);
-    FILE *probe = fopen(path, "re");
-    if (!probe) {
+    if (access(path, R_OK)) {
         const int error = errno;
         memory_free(path);
         return error_report(STATUS_NO_INPUT, "%s: is not the output folder of a run (input/record: %s)",
                             output, strerror(error));
     }
-    fclose(probe);
-    const int status = file_read(path, RECORD_LIMIT, text, size);
+    const int status = file_read(path, RECORD_LIMIT, text, &size);
     memory_free(path);
-    return status;
+    CALL(status);
+    if (hash_unseal(*text, size))
+        return 0;
+    memory_free(*text);
+    return error_report(STATUS_IO, "%s/input/record: is damaged or has been changed; start a new run",
+                        output);
 }
 
 /** Compare a file of the input folder with its line "HASH SIZE NAME". */
@@ -178,22 +188,21 @@ static int record_line(struct record *record, const char *output, const char *li
 static int record_lines(struct record *record, const char *output, char *text)
 {
     CHECK(strncmp(text, first_line, strlen(first_line)) == 0, STATUS_IO,
-          "%s/input/record: damaged, or of another version of skerry", output);
+          "%s/input/record: is of another version of skerry", output);
     char *line = text + strlen(first_line);
     for (char *end; (end = strchr(line, '\n')); line = end + 1) {
         *end = '\0';
         CALL(record_line(record, output, line));
     }
-    CHECK(*line == '\0' && record->deck, STATUS_IO, "%s/input/record: damaged: the end is missing", output);
+    CHECK(*line == '\0' && record->deck, STATUS_IO, "%s/input/record: damaged: it names no deck", output);
     return 0;
 }
 
 int record_read(struct record *record, const char *output)
 {
     char *text = NULL;
-    size_t size;
     *record = (struct record){.isa = "auto"};
-    CALL(record_text(output, &text, &size));
+    CALL(record_text(output, &text));
     const int status = record_lines(record, output, text);
     memory_free(text);
     if (status)
@@ -216,14 +225,14 @@ int record_add(const char *output, const char *isa, size_t n_overrides, const ch
     size_t size;
     if (!isa && n_overrides == 0)
         return 0;
-    CALL(record_text(output, &before, &size));
+    CALL(record_text(output, &before));
     FILE *stream = open_memstream(&text, &size);
     int status = stream ? 0 : error_report(STATUS_MEMORY, "out of memory: cannot record the run");
     if (stream) {
         fputs(before, stream);
         lines_print(stream, isa, n_overrides, overrides);
         status = fclose(stream) ? error_report(STATUS_MEMORY, "out of memory: cannot record the run")
-                                : record_save(output, text, size);
+                                : record_save(output, text);
     }
     memory_free(before);
     free(text);
@@ -236,6 +245,7 @@ int record_remove(const char *output)
     size_t size;
     CHECK_MEMORY(path);
     int status = access(path, F_OK) ? 0 : file_read(path, RECORD_LIMIT, &text, &size);
+    status = status == STATUS_NO_INPUT ? STATUS_CREATE : status;
     for (char *line = text, *end; !status && line && (end = strchr(line, '\n')); line = end + 1) {
         int name = 0;
         *end = '\0';

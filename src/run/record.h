@@ -15,8 +15,9 @@
  *     file HASH SIZE NAME
  *     isa NAME
  *     set NAME=VALUE
+ *     end HASH
  *
- * of which the last of a kind counts.
+ * of which the last of a kind counts; the last line is the hash of all before.
  */
 struct record {
     char *deck;   /**< path of the deck in the output folder */
@@ -31,7 +32,8 @@ int record_create(const char *output, const struct model *model, const char *isa
                   const char *const *overrides);
 
 /** Read the record of an output folder and compare its files with their hashes. Returns 0, STATUS_NO_INPUT
- * (no output of a run; reported), STATUS_IO (something is missing or has changed; reported) or STATUS_MEMORY.
+ * (no output of a run; reported), STATUS_IO (something is missing, damaged or has changed; reported) or
+ * STATUS_MEMORY.
  */
 int record_read(struct record *record, const char *output);
 void record_reset(struct record *record);

@@ -102,12 +102,12 @@ static void state_print(const char *text, const char *output, FILE *stream)
 
 static void progress_print(const char *text, FILE *stream)
 {
-    double fraction = 0.0, t = 0.0, t_end = 0.0, step = 0.0, particles = 0.0, rate = 0.0, wall = 0.0,
-           eta = -1.0;
-    json_find_number(text, "fraction", &fraction);
-    json_find_number(text, "t", &t);
-    json_find_number(text, "t_end", &t_end);
-    json_find_number(text, "step", &step);
+    double fraction, t, t_end, step, particles = 0.0, rate = 0.0, wall = 0.0, eta = -1.0;
+    if (!json_find_number(text, "fraction", &fraction) || !json_find_number(text, "t", &t) ||
+        !json_find_number(text, "t_end", &t_end) || !json_find_number(text, "step", &step)) {
+        fputs("  status.json is damaged\n", stream);
+        return;
+    }
     json_find_number(text, "particles", &particles);
     json_find_number(text, "updates_per_s", &rate);
     json_find_number(text, "wall_s", &wall);
@@ -135,7 +135,7 @@ static void checkpoint_print(const char *text, const char *output, FILE *stream)
         fputs("  no checkpoint\n", stream);
     } else {
         fprintf(stream, "  newest checkpoint: step %" PRId64, newest);
-        if (json_find_number(text, "checkpoint_step", &step) && (int64_t)step == newest &&
+        if (json_find_number(text, "checkpoint_step", &step) && step == (double)newest &&
             json_find_number(text, "checkpoint_t", &t))
             fprintf(stream, ", t = %.6g s", t);
         fputs(", ", stream);

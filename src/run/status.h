@@ -22,9 +22,9 @@ struct status_report {
  * STATUS_MEMORY. */
 int status_write(const struct status_report *report, const char *path);
 
-/** "skerry status OUTPUT": tell where the run of an output folder is: what status.json says, whether a
- * process still has the folder, and how to go on. Returns 0, STATUS_NO_INPUT (no output of a run; reported)
- * or STATUS_MEMORY. */
+/** "skerry status OUTPUT": tell where the run of an output folder is: what status.json says (or that it is
+ * damaged), whether a process still has the folder, and how to go on. Returns 0, STATUS_NO_INPUT (no output
+ * of a run; reported) or STATUS_MEMORY. */
 int status_print(const char *output, FILE *stream);
 
 #endif

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "base/log.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,13 +46,46 @@ static void test_file(void **state)
     assert_int_equal(hash_file(path, &hash, NULL), 0);
     unlink(path);
     free(data);
-    log_set_level((enum log_level) - 1);
     assert_int_equal(hash_file("/nowhere", &hash, NULL), STATUS_NO_INPUT);
     assert_int_equal(hash_file("/tmp", &hash, NULL), STATUS_NO_INPUT);
 }
 
+// A sealed text is told from each of its beginnings and from what differs in one byte.
+static void test_seal(void **state)
+{
+    (void)state;
+    const char *const lines = "step 7\nt 2.385\n";
+    char *sealed = NULL;
+    size_t size;
+    FILE *stream = open_memstream(&sealed, &size);
+    assert_non_null(stream);
+    hash_seal(stream, lines);
+    fclose(stream);
+    assert_int_equal(size, strlen(lines) + strlen("end \n") + HASH_TEXT - 1);
+    char *copy = malloc(size + 2);
+    for (size_t n = 0; n < size; ++n) {
+        memcpy(copy, sealed, n);
+        copy[n] = '\0';
+        assert_false(hash_unseal(copy, n));
+    }
+    for (size_t i = 0; i < size; ++i)
+        for (int change = 1; change < 256; ++change) {
+            memcpy(copy, sealed, size + 1);
+            copy[i] = (char)(copy[i] ^ change);
+            assert_false(hash_unseal(copy, size));
+        }
+    memcpy(copy, sealed, size);
+    memcpy(copy + size, "\n", 2);
+    assert_false(hash_unseal(copy, size + 1));
+    assert_true(hash_unseal(sealed, size));
+    assert_string_equal(sealed, lines);
+    free(copy);
+    free(sealed);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_vectors), cmocka_unit_test(test_file)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_vectors), cmocka_unit_test(test_file),
+                                       cmocka_unit_test(test_seal)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

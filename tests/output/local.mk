@@ -20,3 +20,8 @@ tests_output_write_samples_SOURCES = tests/output/write_samples.c
 tests_output_write_samples_LDADD = libskerry.la
 dist_check_SCRIPTS += tests/output/readers.sh
 TESTS += tests/output/readers.sh
+
+check_PROGRAMS += tests/output/test_checkpoint
+tests_output_test_checkpoint_SOURCES = tests/output/test_checkpoint.c tests/output/folder.h
+tests_output_test_checkpoint_LDADD = $(test_libs)
+TESTS += tests/output/test_checkpoint

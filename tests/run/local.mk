@@ -27,3 +27,8 @@ check_PROGRAMS += tests/run/test_schedule
 tests_run_test_schedule_SOURCES = tests/run/test_schedule.c
 tests_run_test_schedule_LDADD = $(test_libs)
 TESTS += tests/run/test_schedule
+
+check_PROGRAMS += tests/run/test_status
+tests_run_test_status_SOURCES = tests/run/test_status.c
+tests_run_test_status_LDADD = $(test_libs)
+TESTS += tests/run/test_status
