@@ -32,3 +32,8 @@ check_PROGRAMS += tests/run/test_status
 tests_run_test_status_SOURCES = tests/run/test_status.c
 tests_run_test_status_LDADD = $(test_libs)
 TESTS += tests/run/test_status
+
+check_PROGRAMS += tests/run/test_record
+tests_run_test_record_SOURCES = tests/run/test_record.c
+tests_run_test_record_LDADD = $(test_libs)
+TESTS += tests/run/test_record
