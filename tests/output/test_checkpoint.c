@@ -130,12 +130,14 @@ static void test_round_trip(void **state)
     assert_memory_equal(back.weight, scene.weight, sizeof back.weight);
     assert_true(back.time == 0.1 * 3 && back.step == INT64_C(1) << 41);
     scene_reset(&back);
+    scene_reset(&scene);
     scene_create(&scene, 0); // nothing in it is fine
     assert_int_equal(checkpoint_write(folder->path, &scene.list, &note_of_step_7, -1), 0);
     scene_create(&back, 3);
     assert_int_equal(checkpoint_read(folder->path, &back.list, &note), 0);
     assert_int_equal(back.n, 0);
     scene_reset(&back);
+    scene_reset(&scene);
 }
 
 /** Equal states give equal bytes; two checkpoints are kept, whatever else there was. */
