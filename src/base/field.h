@@ -32,7 +32,8 @@ struct field {
 
 /** The fields of one block, surface or solid: all have the same number of items. */
 struct field_group {
-    const char *name;    /**< "fluid", "solid-beam", ... unique in a run */
+    const char *name;    /**< "fluid", "solid-beam", ... unique in a run: a colon, which no name of a
+                             deck has, sets what is added behind one apart */
     const void *owner;   /**< passed to fill */
     const size_t *count; /**< current number of items (points to the owner's counter) */
     struct field *fields;

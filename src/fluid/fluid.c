@@ -197,7 +197,7 @@ static int state_register(struct fluid *fluid)
         {"Rebuilds", "-", FIELD_INT64, 1, FIELD_STATE, {&fluid->rebuilds}, NULL},
     };
     fluid->state =
-        field_singles("fluid-state", fluid, fluid->state_fields, fields, sizeof fields / sizeof *fields);
+        field_singles("fluid:state", fluid, fluid->state_fields, fields, sizeof fields / sizeof *fields);
     return particles_add_field(fluid->block, "ListedPosition", "m", 3, FIELD_STATE, fluid->listed);
 }
 

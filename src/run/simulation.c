@@ -171,7 +171,7 @@ static int view_open(const struct simulation *s)
     return status;
 }
 
-/** A new run: its folder with what it needs to be repeated, its first evaluation. */
+/** A new run: its folder with what it needs to be repeated. */
 static int run_begin(struct simulation *s)
 {
     const struct run_options *options = s->options;
@@ -255,6 +255,19 @@ static int output_sample(struct simulation *s)
     return 0;
 }
 
+/** Time at which the run ends, s: the deck's, or earlier; a run that goes on may be told to go further. */
+static double end_of(const struct simulation *s)
+{
+    const struct run_options *options = s->options;
+    const bool told = options->resume && (options->has_until || options->steps >= 0);
+    double end = told ? INFINITY : s->model->time.end;
+    if (options->has_until)
+        end = fmin(end, options->until);
+    if (options->steps >= 0)
+        end = fmin(end, (double)options->steps * s->model->time.step);
+    return end;
+}
+
 static int status_report_write(struct simulation *s, const char *state)
 {
     char *path = memory_print("%s/status.json", s->folder);
@@ -264,9 +277,9 @@ static int status_report_write(struct simulation *s, const char *state)
     const struct status_report report = {.state = state,
                                          .step = (long)s->step,
                                          .t = s->t,
-                                         .t_end = s->model->time.end,
+                                         .t_end = end_of(s),
                                          .dt = s->model->time.step,
-                                         .fraction = s->t / s->model->time.end,
+                                         .fraction = fmin(1.0, s->t / fmax(end_of(s), s->model->time.step)),
                                          .wall_s = timer_now() - s->started,
                                          .eta_s = progress_remaining(&s->progress),
                                          .updates_per_s = updates,
@@ -283,8 +296,7 @@ static bool run_ends(const struct simulation *s)
 {
     const struct run_options *options = s->options;
     const double tolerance = 1e-6 * s->model->time.step;
-    return s->t >= s->model->time.end - tolerance || (options->steps >= 0 && s->step >= options->steps) ||
-           (options->has_until && s->t >= options->until - tolerance);
+    return s->t >= end_of(s) - tolerance || (options->steps >= 0 && s->step >= options->steps);
 }
 
 /** A checkpoint of this step; histories last before it does. */
@@ -473,7 +485,7 @@ static void stop_tell(const struct simulation *s)
 {
     log_message(LOG_WARNING,
                 "stopped early by %s at step %lld, t = %.6g s of %.6g s; to go on: skerry resume %s",
-                s->stopped_by, (long long)s->step, s->t, s->model->time.end, s->folder);
+                s->stopped_by, (long long)s->step, s->t, end_of(s), s->folder);
 }
 
 static void failure_tell(struct simulation *s, int result)
@@ -491,11 +503,10 @@ static int run_whole(struct simulation *s)
     interrupt_catch();
     CALL(parts_create(s));
     CALL(output_open(s));
-    const double end = options->has_until ? fmin(options->until, s->model->time.end) : s->model->time.end;
     const struct progress_setup setup = {.quiet = options->quiet,
                                          .json = options->json,
                                          .t = s->t,
-                                         .t_end = end,
+                                         .t_end = end_of(s),
                                          .step = (long)s->step,
                                          .step_end = options->steps};
     s->started = timer_now() - s->wall_before;

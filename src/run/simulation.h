@@ -13,8 +13,9 @@ struct run_options {
     bool resume;        /**< go on from the newest checkpoint in it */
     int threads;        /**< 0: the CPUs this process may use */
     bool has_until;
-    double until;    /**< stop after the first step that reaches it, s */
-    long steps;      /**< stop when the step counter reaches it; < 0: no limit */
+    double until; /**< stop after the first step that reaches it, s; resume: also beyond the deck's end */
+    long steps; /**< stop when the step counter reaches it, resume: also beyond the deck's end; < 0: no limit
+                 */
     double started;  /**< wall clock (timer_now) when the program started */
     double max_wall; /**< stop with a checkpoint before the program has run so long, s; < 0: no limit */
     double checkpoint_every; /**< wall clock between checkpoints, s; < 0: as the deck says */

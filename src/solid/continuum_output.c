@@ -89,8 +89,8 @@ int continuum_fields(struct continuum *continuum)
     memcpy(continuum->node_fields, node_fields, sizeof node_fields);
     memcpy(continuum->cell_fields, cell_fields, sizeof cell_fields);
     continuum->node_group_name = memory_print("solid-%s", continuum->definition->name);
-    continuum->cell_group_name = memory_print("solid-%s-cells", continuum->definition->name);
-    continuum->state_group_name = memory_print("solid-%s-state", continuum->definition->name);
+    continuum->cell_group_name = memory_print("solid-%s:cells", continuum->definition->name);
+    continuum->state_group_name = memory_print("solid-%s:state", continuum->definition->name);
     if (!continuum->node_group_name || !continuum->cell_group_name || !continuum->state_group_name)
         return STATUS_MEMORY;
     continuum->node_group = (struct field_group){.name = continuum->node_group_name,

@@ -12,7 +12,7 @@ static int state_register(struct boundary *boundary)
         {"Drift", "m", FIELD_DOUBLE, 1, FIELD_STATE, {&boundary->drift}, NULL},
         {"PutBack", "-", FIELD_INT64, 1, FIELD_STATE, {&boundary->put_back_count}, NULL},
     };
-    char *name = memory_print("wall-%s-state", boundary->wall->name);
+    char *name = memory_print("wall-%s:state", boundary->wall->name);
     CHECK_MEMORY(name);
     boundary->state =
         field_singles(name, boundary, boundary->state_fields, fields, boundary->type->put_back ? 2 : 1);

@@ -309,6 +309,11 @@ def all_decks(skerry, everything):
                     treatments, treatments, known["wall"]["corners"], known["wall"]["pressure-gradient"]):
                 if dim == 2 or everything or wall != treatments[0]:
                     yield named(kind, make, **dict(first, wall=wall, wet=wet, corners=corners, gradient=gradient))
+    # names that could be taken for those of what belongs to another
+    one = alone(2, "quad4", "eas", "fixed")
+    mesh = re.search("<mesh .*</mesh>", one, re.S).group(0)
+    others = "".join("\n" + mesh.replace('"beam"', '"beam%s"' % end) for end in ("-state", "-cells", "..b"))
+    yield "alone2-names", one.replace(mesh, mesh + others)
     for dim in (2, 3):
         for element, solid, support in itertools.product(ELEMENTS[dim], known["mesh"]["formulation"], ("fixed", "moving")):
             yield "alone%d-%s-%s-%s" % (dim, element, solid, support), alone(dim, element, solid, support)

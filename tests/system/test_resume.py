@@ -88,6 +88,39 @@ def write(path, text):
         stream.write(text)
 
 
+# ------------------------------------------------------------------------------------- further than the deck said
+
+def test_further(skerry, folder):
+    """A run that has come to its end goes on to a time, to a step, or to another end, with frames at other times."""
+    (_, deck), = chosen(skerry, "beam2-.*-momentum-quad4-eas-shares-yes-fixed-point-constant-.*")
+    path, whole, short = (os.path.join(folder, end) for end in ("deck.xml", "whole", "short"))
+    deck = deck.replace('every="7.3*dt"', 'every="frames"').replace("</parameters>", '<parameter name="frames" value="7.3*dt"/></parameters>')
+    write(path, deck)
+    step = 0.25 * resume_decks.DX / 10
+    run(skerry, "run", path, "-j", "1", "--steps", str(LAST), "-o", whole)
+    run(skerry, "run", path, "-j", "1", "-o", short, "--set", "end=%d*dt" % FIRST)
+    run(skerry, "resume", short, "-j", "1")
+    if not newest(short).endswith("%09d" % FIRST):
+        raise Wrong("a run at its end goes on without being told")
+    for options in (["--until", "%.17g" % (LAST * step)], ["--steps", str(LAST)], ["--set", "end=%d*dt" % LAST]):
+        there = os.path.join(folder, "there")
+        shutil.copytree(short, there)
+        run(skerry, "resume", there, "-j", "1", *options)
+        compare(whole, there)
+        shutil.rmtree(there)
+    # other frames from here on: those so far stay, and the times are multiples of the new interval
+    run(skerry, "resume", short, "-j", "1", "--set", "end=%d*dt" % LAST, "--set", "frames=3*dt")
+    with open(os.path.join(short, "deck.pvd"), encoding="utf-8") as stream:
+        times = sorted({round(float(t) / step) for t in re.findall(r'timestep="([^"]+)"', stream.read())})
+    if times != [0, 8, 15, 18, 21, 24, 27, 30]:
+        raise Wrong("frames at steps %s" % times)
+    code, said = run(skerry, "resume", short, "--set", "dx=0.04", good=(64,))
+    if "would change" not in said:
+        raise Wrong("another spacing is refused without a reason: %s" % said)
+    print("runs go further than their deck said", flush=True)
+    return True
+
+
 # -------------------------------------------------------------------------------------- 2 N steps = N + resume + N
 
 def identity(skerry, folder, number, name, deck):
@@ -281,7 +314,7 @@ def test_perturb(skerry, folder):
             print("%s: %d of %d datasets act" % (name, sum(results.values()), len(results)), flush=True)
             for dataset, changed in results.items():
                 # the same field of another wall, surface or solid
-                field = re.sub(r"^/(surface|wall|solid|opening)-[a-z]+", r"/\1", dataset)
+                field = re.sub(r"^/(surface|wall|solid|opening)-[a-z-]+", r"/\1", dataset)
                 acts[field] = acts.get(field, False) or changed
     idle = sorted(field for field, changed in acts.items() if not changed)
     for field in idle:
@@ -336,12 +369,18 @@ def test_validate(skerry, folder):
 
 def main():
     skerry = os.path.abspath(sys.argv[1])
-    tests = {"identity": test_identity, "chain": test_chain, "perturb": test_perturb, "validate": test_validate}
+    tests = {"further": test_further, "identity": test_identity, "chain": test_chain, "perturb": test_perturb, "validate": test_validate}
     memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
     good = True
     with tempfile.TemporaryDirectory(dir=memory) as folder:
         for name in sys.argv[2:] or tests:
-            good &= tests[name](skerry, folder)
+            here = os.path.join(folder, name)
+            os.mkdir(here)
+            try:
+                good &= tests[name](skerry, here)
+            except (Wrong, OSError, subprocess.SubprocessError) as error:
+                good = False
+                print("FAIL: %s: %s" % (name, error), flush=True)
     return 0 if good else 1
 
 
