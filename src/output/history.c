@@ -6,6 +6,7 @@
 #include "base/memory.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -100,6 +101,18 @@ static int rows_measure(FILE *stream, const char *path, const char *const *colum
     CHECK(good, STATUS_IO,
           "%s: its first line is not that of this history: move the file away, and a new one is begun", path);
     return 0;
+}
+
+int history_check(const char *path, const char *const *columns, int n)
+{
+    off_t size;
+    FILE *stream = fopen(path, "re");
+    if (!stream && errno == ENOENT)
+        return 0;
+    CHECK(stream, STATUS_IO, "%s: cannot open: %s", path, strerror(errno));
+    const int status = rows_measure(stream, path, columns, n, -INFINITY, &size);
+    fclose(stream);
+    return status;
 }
 
 int history_resume(struct history *history, const char *path, const char *const *columns, int n, double t)

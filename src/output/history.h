@@ -14,6 +14,10 @@ struct history {
 /** @p columns: names with units, e.g. "t [s]". Returns a status. */
 int history_create(struct history *history, const char *path, const char *const *columns, int n);
 
+/** Whether history_resume could go on with the file @p path. Returns a status (STATUS_IO, reported: its first
+ * line is another). */
+int history_check(const char *path, const char *const *columns, int n);
+
 /** Go on with a file of history_create after its last row of time (first column) @p t or before; rows behind
  * it, and a torn last line, are cut off. A file that is missing is begun anew with a warning. Returns a
  * status (STATUS_IO, reported: its first line is another). */

@@ -114,12 +114,18 @@ static int monitor_place(const struct monitors *monitors, struct monitor *monito
     return 0;
 }
 
+/** The file of a monitor; freed with memory_free. */
+static char *monitor_path(const struct monitors *monitors, const struct monitor *monitor)
+{
+    return memory_print("%s/history/%s.csv", monitors->folder, monitor->definition->name);
+}
+
 /** Begin the file of a monitor, or go on after time *@p t. */
 static int monitor_open(const struct monitors *monitors, struct monitor *monitor, const double *t)
 {
     const char *const *columns = NULL;
     const int n = columns_of(monitor, monitors->model->dim, &columns);
-    char *path = memory_print("%s/history/%s.csv", monitors->folder, monitor->definition->name);
+    char *path = monitor_path(monitors, monitor);
     CHECK_MEMORY(path);
     const int status = t ? history_resume(&monitor->file, path, columns, n, *t)
                          : history_create(&monitor->file, path, columns, n);
@@ -151,6 +157,20 @@ int monitors_start(struct monitors *monitors)
 {
     for (size_t k = 0; k < monitors->n; ++k)
         CALL(monitor_open(monitors, &monitors->monitors[k], NULL));
+    return 0;
+}
+
+int monitors_check(const struct monitors *monitors)
+{
+    for (size_t k = 0; k < monitors->n; ++k) {
+        const char *const *columns = NULL;
+        const int n = columns_of(&monitors->monitors[k], monitors->model->dim, &columns);
+        char *path = monitor_path(monitors, &monitors->monitors[k]);
+        CHECK_MEMORY(path);
+        const int status = history_check(path, columns, n);
+        memory_free(path);
+        CALL(status);
+    }
     return 0;
 }
 

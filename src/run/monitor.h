@@ -16,6 +16,9 @@ int monitors_create(struct monitors **monitors, const struct model *model, const
 /** Begin all files. */
 int monitors_start(struct monitors *monitors);
 
+/** Whether monitors_resume could go on with all files, before it cuts any. Returns a status (reported). */
+int monitors_check(const struct monitors *monitors);
+
 /** Go on with the files of a run after their rows of time @p t, where a step of length @p step ended. */
 int monitors_resume(struct monitors *monitors, double t, double step);
 

@@ -210,7 +210,8 @@ static int run_continue(struct simulation *s)
     CALL(saver_read(&s->saver, &note));
     builds_compare(s, &note);
     CALL(coupling_resume(s->coupling));
-    CALL(frames_resume(s->frames, s->t));
+    CALL(monitors_check(s->monitors));
+    CALL(frames_resume(s->frames, s->t)); /* looks at the series before it cuts */
     CALL(monitors_resume(s->monitors, s->t, step));
     const bool same = !s->fluid || strcmp(fluid_isa(s->fluid), options->isa_before) == 0;
     CALL(record_add(s->folder, same ? NULL : fluid_isa(s->fluid),

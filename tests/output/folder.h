@@ -84,4 +84,19 @@ static inline void folder_write(const char *path, const char *data, size_t size)
     fclose(stream);
 }
 
+/** Set-up and teardown of a test that runs with a folder of its own as its state. */
+static inline int folder_enter(void **state)
+{
+    static struct folder folder;
+    folder_create(&folder);
+    *state = &folder;
+    return 0;
+}
+
+static inline int folder_leave(void **state)
+{
+    folder_remove(((struct folder *)*state)->path);
+    return 0;
+}
+
 #endif

@@ -97,20 +97,6 @@ static const struct checkpoint_note note_of_step_7 = {.step = 7,
                                                       .revision = "abc-dirty",
                                                       .isa = "v3"};
 
-static int create(void **state)
-{
-    static struct folder folder;
-    folder_create(&folder);
-    *state = &folder;
-    return 0;
-}
-
-static int destroy(void **state)
-{
-    folder_remove(((struct folder *)*state)->path);
-    return 0;
-}
-
 static void test_round_trip(void **state)
 {
     const struct folder *folder = *state;
@@ -281,10 +267,10 @@ static void test_other_states(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_round_trip, create, destroy),
-        cmocka_unit_test_setup_teardown(test_two_are_kept, create, destroy),
-        cmocka_unit_test_setup_teardown(test_not_finite, create, destroy),
-        cmocka_unit_test_setup_teardown(test_other_states, create, destroy),
+        cmocka_unit_test_setup_teardown(test_round_trip, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_two_are_kept, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_not_finite, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_other_states, folder_enter, folder_leave),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -134,20 +134,6 @@ static void run_write(const struct folder *folder, unsigned content)
     pvd_reset(&pvd);
 }
 
-static int create(void **state)
-{
-    static struct folder folder;
-    folder_create(&folder);
-    *state = &folder;
-    return 0;
-}
-
-static int destroy(void **state)
-{
-    folder_remove(((struct folder *)*state)->path);
-    return 0;
-}
-
 struct image {
     int width, height;
     uint8_t *rgb;
@@ -405,16 +391,16 @@ static void test_view(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_plane, create, destroy),
-        cmocka_unit_test_setup_teardown(test_decorations, create, destroy),
-        cmocka_unit_test_setup_teardown(test_frames, create, destroy),
-        cmocka_unit_test_setup_teardown(test_fields, create, destroy),
-        cmocka_unit_test_setup_teardown(test_solid_alone, create, destroy),
-        cmocka_unit_test_setup_teardown(test_space, create, destroy),
-        cmocka_unit_test_setup_teardown(test_errors, create, destroy),
+        cmocka_unit_test_setup_teardown(test_plane, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_decorations, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_frames, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_fields, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_solid_alone, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_space, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_errors, folder_enter, folder_leave),
         cmocka_unit_test(test_colours),
         cmocka_unit_test(test_lettering),
-        cmocka_unit_test_setup_teardown(test_view, create, destroy),
+        cmocka_unit_test_setup_teardown(test_view, folder_enter, folder_leave),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

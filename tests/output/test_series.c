@@ -14,20 +14,6 @@
 
 #include <sys/stat.h>
 
-static int create(void **state)
-{
-    static struct folder folder;
-    folder_create(&folder);
-    *state = &folder;
-    return 0;
-}
-
-static int destroy(void **state)
-{
-    folder_remove(((struct folder *)*state)->path);
-    return 0;
-}
-
 static void test_pvd(void **state)
 {
     char path[256];
@@ -198,11 +184,11 @@ static void test_history_resume(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_pvd, create, destroy),
-        cmocka_unit_test_setup_teardown(test_pvd_errors, create, destroy),
-        cmocka_unit_test_setup_teardown(test_history, create, destroy),
-        cmocka_unit_test_setup_teardown(test_pvd_count, create, destroy),
-        cmocka_unit_test_setup_teardown(test_history_resume, create, destroy),
+        cmocka_unit_test_setup_teardown(test_pvd, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_pvd_errors, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_history, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_pvd_count, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_history_resume, folder_enter, folder_leave),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,20 +16,6 @@
 #include <math.h>
 #include <sys/stat.h>
 
-static int create(void **state)
-{
-    static struct folder folder;
-    folder_create(&folder);
-    *state = &folder;
-    return 0;
-}
-
-static int destroy(void **state)
-{
-    folder_remove(((struct folder *)*state)->path);
-    return 0;
-}
-
 static struct vtu_array array(const char *name, int components, enum vtu_type type, const void *data)
 {
     struct vtu_array made = {.components = components, .type = type, .data = data};
@@ -321,14 +307,14 @@ static void test_atomic(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_types, create, destroy),
-        cmocka_unit_test_setup_teardown(test_sizes, create, destroy),
-        cmocka_unit_test_setup_teardown(test_threads, create, destroy),
-        cmocka_unit_test_setup_teardown(test_truncated, create, destroy),
-        cmocka_unit_test_setup_teardown(test_flipped, create, destroy),
-        cmocka_unit_test_setup_teardown(test_refused, create, destroy),
-        cmocka_unit_test_setup_teardown(test_cells, create, destroy),
-        cmocka_unit_test_setup_teardown(test_atomic, create, destroy),
+        cmocka_unit_test_setup_teardown(test_types, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_sizes, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_threads, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_truncated, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_flipped, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_refused, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_cells, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_atomic, folder_enter, folder_leave),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -114,6 +114,8 @@ def test_damage(skerry, folder):
     run(skerry, "run", path, "-o", good, "-j", "1", "--steps", "13")
     run(skerry, "resume", good, "-j", "1", "--steps", "22")
     older = os.path.join(good, "checkpoint", "step_000000013")
+    older_checkpoint = os.path.join(folder, "older")
+    shutil.copytree(os.path.join(good, "checkpoint"), older_checkpoint)
     check(newest(good).endswith("step_000000022") and os.path.exists(older + ".h5"), "not the two newest are kept")
 
     def flip(place):
@@ -174,6 +176,23 @@ def test_damage(skerry, folder):
     check("there is no checkpoint" in said, "unclear: %s" % said)
     _, said = run(skerry, "resume", folder, good=(66,))
     check("is not the output folder of a run" in said, "unclear: %s" % said)
+    # a history or a series that is not the run's any more: refused before anything is cut
+    for name in ("history/energy.csv", "deck.pvd"):
+        there = os.path.join(folder, "there")
+        shutil.copytree(whole, there)
+        with open(os.path.join(there, name), "r+", encoding="utf-8") as stream:
+            text = stream.read()
+            stream.seek(0)
+            stream.truncate()
+            stream.write("edited " + text[:-10])
+        # back to an older step: rows and frames behind it would be cut
+        shutil.rmtree(os.path.join(there, "checkpoint"))
+        shutil.copytree(older_checkpoint, os.path.join(there, "checkpoint"))
+        before = outputs(there)
+        _, said = run(skerry, "resume", there, good=(74,))
+        check(name in said, "unclear: %s" % said)
+        check(outputs(there) == before, "a refused resume has changed the output")
+        shutil.rmtree(there)
     # the deck in the output is another than the run's
     with open(os.path.join(whole, "input", "deck.xml"), "a", encoding="utf-8") as stream:
         stream.write("<!-- -->\n")
