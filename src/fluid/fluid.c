@@ -212,11 +212,10 @@ static int fluid_build(struct fluid *fluid, const struct fluid_parts *parts)
     CALL(particles_create(&fluid->block, "fluid", model->dim, 1024));
     CALL(state_register(fluid));
     view_fill(fluid);
-    double reach = fluid->view.kernel.support + fluid->skin;
-    /* rows of about 3.4 spacings in 2-D and 2.8 in 3-D: long clusters without many idle candidates */
-    double width = (model->dim == 3 ? 2.8 / 3.0 : 3.4 / 3.0) * fluid->view.kernel.support;
+    /* rows of about 2.8 spacings in 2-D and 2 in 3-D: a cluster is then about as long as its row is wide */
+    double width = (model->dim == 3 ? 2.0 / 3.0 : 2.8 / 3.0) * fluid->view.kernel.support;
     CALL(cell_grid_create(&fluid->grid, model->dim, model->domain.lower, model->domain.upper,
-                          model->domain.periodic, model->dim == 3 ? width : fmax(width, reach),
+                          model->domain.periodic, fluid->view.kernel.support + fluid->skin, width,
                           fluid->view.spacing));
     for (size_t k = 0; k < model->fluid.n_regions; ++k)
         CALL(region_fill(fluid, &model->fluid.regions[k]));
@@ -237,9 +236,10 @@ int fluid_create(struct fluid **fluid, const struct model *model, const struct f
     f->model = model;
     f->material = &model->fluid_materials[model->fluid.material];
     f->timer = parts->timer;
-    f->isa = parts->isa;
     *fluid = f;
-    int status = fluid_build(f, parts);
+    int status = isa_choose(parts->isa, &f->isa);
+    if (!status)
+        status = fluid_build(f, parts);
     if (status) {
         fluid_destroy(f);
         *fluid = NULL;
@@ -331,7 +331,7 @@ int fluid_start(struct fluid *fluid, double t)
         CALL(fluid->openings[k].type->velocities(&fluid->openings[k], &fluid->view, fluid->block, t));
     CALL(overlaps_check(fluid));
     double since = timer_now();
-    fluid->type->density(fluid);
+    CALL(fluid->type->density(fluid));
     timer_lap(fluid->timer, TIMER_FLUID, &since);
     CALL(fluid_interface(fluid, false));
     return fluid_end_step(fluid);
@@ -396,7 +396,7 @@ int fluid_begin_step(struct fluid *fluid, double t, double dt)
     timer_lap(fluid->timer, TIMER_WALLS, &since);
     CALL(lists_update(fluid, moved, moved_back));
     timer_lap(fluid->timer, TIMER_NEIGHBOURS, &since);
-    fluid->type->density(fluid);
+    CALL(fluid->type->density(fluid));
     timer_lap(fluid->timer, TIMER_FLUID, &since);
     return 0;
 }
@@ -472,7 +472,7 @@ const struct boundary *fluid_boundary(const struct fluid *fluid, size_t index)
 
 const char *fluid_isa(const struct fluid *fluid)
 {
-    return fluid->isa;
+    return isa_name(fluid->isa);
 }
 
 int64_t fluid_rebuilds(const struct fluid *fluid)

@@ -69,10 +69,6 @@ const struct field_group *fluid_output(struct fluid *fluid);
 
 /** Instruction set of the sweeps in use: "baseline", "v3" or "v4". */
 const char *fluid_isa(const struct fluid *fluid);
-/** Instruction set that "auto" stands for on this machine. */
-const char *fluid_isa_best(void);
-/** Whether this program and this machine have the instruction set @p name. */
-bool fluid_isa_available(const char *name);
 /** How often the lists were rebuilt. */
 int64_t fluid_rebuilds(const struct fluid *fluid);
 /** Bytes of particle and neighbour data. */

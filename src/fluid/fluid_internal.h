@@ -3,6 +3,7 @@
 #define FLUID_FLUID_INTERNAL_H
 
 #include "fluid/fluid.h"
+#include "sph/isa.h"
 #include "sph/neighbour_list.h"
 
 /** Accelerations of the near particles of one boundary by its wall: a (eq. 40) and a_background; one entry
@@ -41,7 +42,7 @@ struct fluid {
     double **force;                  /**< per thread: 3 rows of pair forces */
     size_t *force_capacity;
     struct timer *timer;
-    const char *isa;
+    enum isa isa;
     int64_t rebuilds;
     struct field_group output, state;
     struct field output_fields[16], state_fields[4];
@@ -58,7 +59,7 @@ struct fluid_type {
     /** Before the evaluation at the very start: velocities as after a drift of no length. */
     void (*start)(struct fluid *fluid);
     /** Fluid-fluid density sums. */
-    void (*density)(struct fluid *fluid);
+    int (*density)(struct fluid *fluid);
     /** Density and pressure of all particles (@p coupled_only: of those near coupled boundaries) from fluid
      * and walls. */
     void (*pressure)(struct fluid *fluid, bool coupled_only);

@@ -63,7 +63,7 @@ static int lists_make(struct fluid *fluid)
 {
     const double *x[3] = {fluid->block->x[0], fluid->block->x[1], fluid->block->x[2]};
     CALL(neighbour_list_make(&fluid->list, &fluid->grid, x, fluid->block->n,
-                             fluid->view.kernel.support + fluid->skin));
+                             fluid->view.kernel.support + fluid->skin, fluid->isa));
     for (size_t k = 0; k < fluid->n_boundaries; ++k)
         CALL(fluid->boundaries[k]->type->list(fluid->boundaries[k], &fluid->view));
     for (size_t k = 0; k < fluid->n_openings; ++k)
@@ -131,6 +131,7 @@ int fluid_relist(struct fluid *fluid)
         for (size_t s = 0; s < fluid->boundaries[k]->n_surfaces; ++s)
             surface_recall(fluid->boundaries[k]->surfaces[s], fluid->list_time);
     CALL(lists_make(fluid));
+    fluid->list.fresh = false;
     places_swap(fluid);
     fluid->grid.moved = fluid->drift;
     return 0;

@@ -4,4 +4,4 @@ libskerry_la_SOURCES += \
 	src/fluid/transport_velocity.c src/fluid/transport_velocity.h
 
 # Pair sweeps: compiled once per instruction set and precision (top Makefile.am).
-sweep_sources = src/fluid/transport_velocity_sweeps.c src/fluid/sweep_vector.h
+sweep_sources = src/fluid/transport_velocity_sweeps.c src/sph/sweep.h src/sph/sweep_vector.h

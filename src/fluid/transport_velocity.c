@@ -20,78 +20,22 @@ struct transport_velocity {
     double *kernel_sum;      /**< sum W of this evaluation over the fluid */
     double *rigid_sum;       /**< the same with the walls that no solid moves */
     double *whole_sum;       /**< the same with all walls */
-    void *records;           /**< workspace of the force sweep */
-    size_t records_capacity;
+    void *places, *records;  /**< workspace of the sweeps */
+    size_t places_capacity, records_capacity;
 };
 
-struct isa {
-    const char *name;
-    const struct transport_velocity_sweeps *mixed, *full;
-    bool available;
-};
-
-/** Instruction sets of the sweeps, best first. */
-static size_t isa_list(struct isa list[3])
-{
-    size_t n = 0;
-#ifdef SKERRY_SWEEPS_X86
-    bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-              __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-              __builtin_cpu_supports("avx512cd");
-    list[n++] =
-        (struct isa){"v4", &transport_velocity_sweeps_v4_mixed, &transport_velocity_sweeps_v4_double, v4};
-    list[n++] =
-        (struct isa){"v3", &transport_velocity_sweeps_v3_mixed, &transport_velocity_sweeps_v3_double, v3};
-#endif
-    list[n++] = (struct isa){"baseline", &transport_velocity_sweeps_baseline_mixed,
-                             &transport_velocity_sweeps_baseline_double, true};
-    return n;
-}
-
-const char *fluid_isa_best(void)
-{
-    struct isa list[3];
-    size_t n = isa_list(list);
-    for (size_t k = 0; k < n; ++k)
-        if (list[k].available)
-            return list[k].name;
-    return "baseline";
-}
-
-bool fluid_isa_available(const char *name)
-{
-    struct isa list[3];
-    size_t n = isa_list(list);
-    for (size_t k = 0; k < n; ++k)
-        if (list[k].available && !strcmp(list[k].name, name))
-            return true;
-    return false;
-}
-
-static int sweeps_choose(struct fluid *fluid, struct transport_velocity *tv)
-{
-    struct isa list[3];
-    size_t n = isa_list(list);
-    const char *wanted = fluid->isa && strcmp(fluid->isa, "auto") ? fluid->isa : fluid_isa_best();
-    for (size_t k = 0; k < n; ++k)
-        if (!strcmp(list[k].name, wanted)) {
-            CHECK(list[k].available, STATUS_USAGE,
-                  "--isa %s: this machine cannot run it; the best here is %s", wanted, fluid_isa_best());
-            fluid->isa = list[k].name;
-            tv->sweeps = fluid->model->fluid.arithmetic == ARITHMETIC_DOUBLE ? list[k].full : list[k].mixed;
-        }
-    CHECK(tv->sweeps, STATUS_USAGE,
-          "--isa %s: unknown instruction set; this program has baseline, v3 and v4 on x86-64", wanted);
-    return 0;
-}
+static const struct transport_velocity_sweeps *const sweeps_mixed[ISAS] =
+    ISA_TABLE(transport_velocity_sweeps, mixed);
+static const struct transport_velocity_sweeps *const sweeps_double[ISAS] =
+    ISA_TABLE(transport_velocity_sweeps, double);
 
 static int transport_velocity_create(struct fluid *fluid)
 {
     struct transport_velocity *tv = memory_create(1, sizeof *tv);
     CHECK_MEMORY(tv);
     fluid->data = tv;
-    CALL(sweeps_choose(fluid, tv));
+    const bool full = fluid->model->fluid.arithmetic == ARITHMETIC_DOUBLE;
+    tv->sweeps = (full ? sweeps_double : sweeps_mixed)[fluid->isa];
     struct particles *block = fluid->block;
     CALL(particles_add_field(block, "Acceleration", "m/s^2", 3, FIELD_STATE | FIELD_SORTED | FIELD_OUTPUT,
                              tv->a));
@@ -106,8 +50,10 @@ static int transport_velocity_create(struct fluid *fluid)
 static void transport_velocity_destroy(struct fluid *fluid)
 {
     struct transport_velocity *tv = fluid->data;
-    if (tv)
+    if (tv) {
+        memory_free(tv->places);
         memory_free(tv->records);
+    }
     memory_free(tv);
 }
 
@@ -184,6 +130,7 @@ static struct transport_velocity_arrays sweep_arrays(const struct fluid *fluid)
         .rho = block->rho,
         .p = block->p,
         .m = block->m,
+        .places = tv->places,
         .records = tv->records,
         .h = fluid->view.kernel.h,
         .constant = fluid->view.kernel.constant,
@@ -201,11 +148,16 @@ static struct transport_velocity_arrays sweep_arrays(const struct fluid *fluid)
     return arrays;
 }
 
-static void transport_velocity_density(struct fluid *fluid)
+static int transport_velocity_density(struct fluid *fluid)
 {
-    const struct transport_velocity *tv = fluid->data;
+    struct transport_velocity *tv = fluid->data;
+    const size_t dim = (size_t)fluid->model->dim, slots = fluid->list.n_slots;
+    const size_t size = fluid->model->fluid.arithmetic == ARITHMETIC_DOUBLE ? sizeof(double) : sizeof(float);
+    CALL(memory_grow(&tv->places, &tv->places_capacity, slots, dim * size));
+    CALL(memory_grow(&tv->records, &tv->records_capacity, slots, (2 * dim + 3) * size));
     const struct transport_velocity_arrays arrays = sweep_arrays(fluid);
     tv->sweeps->density(&fluid->list, &arrays);
+    return 0;
 }
 
 /** Density (31) and pressure (20) of fluid particle @p i from its kernel sum. */
@@ -298,8 +250,6 @@ static int transport_velocity_finish(struct fluid *fluid, double dt)
     struct particles *block = fluid->block;
     const int dim = fluid->model->dim;
     const double damping = fluid->model->fluid.damping;
-    const size_t size = fluid->model->fluid.arithmetic == ARITHMETIC_DOUBLE ? sizeof(double) : sizeof(float);
-    CALL(memory_grow(&tv->records, &tv->records_capacity, block->n, TRANSPORT_VELOCITY_RECORD * size));
     const struct transport_velocity_arrays arrays = sweep_arrays(fluid);
     tv->sweeps->force(&fluid->list, &arrays);
     for (size_t b = 0; b < fluid->n_boundaries; ++b) {

@@ -2,9 +2,8 @@
 #ifndef FLUID_TRANSPORT_VELOCITY_H
 #define FLUID_TRANSPORT_VELOCITY_H
 
+#include "sph/isa.h"
 #include "sph/neighbour_list.h"
-
-enum { TRANSPORT_VELOCITY_RECORD = 12 };
 
 /** What the sweeps of the transport-velocity formulation read and write: arrays of the moving block (in
  * double), n entries. */
@@ -13,9 +12,10 @@ struct transport_velocity_arrays {
     const double *x[3], *u[3], *w[3]; /**< place, velocity u, transport minus momentum velocity */
     size_t n;
     const double *rho, *p, *m;
-    void *records;      /**< workspace: TRANSPORT_VELOCITY_RECORD numbers per particle, up to double */
-    double h, constant; /**< smoothing length; kernel normalisation */
-    double viscosity;   /**< dynamic, Pa s */
+    void *places, *records;     /**< workspace for every slot of the list: dim places (4 bytes each in mixed
+                                     arithmetic, else 8) and 2 dim + 3 numbers of the pair arithmetic */
+    double h, constant;         /**< smoothing length; kernel normalisation */
+    double viscosity;           /**< dynamic, Pa s */
     double background_pressure; /**< Pa */
     double *kernel_sum;         /**< density sweep: sum_j W_ij, self included, 1/m^dim */
     double *a[3],
@@ -24,8 +24,8 @@ struct transport_velocity_arrays {
 
 /** The sweeps, compiled once per instruction set and precision of the pair arithmetic. */
 struct transport_velocity_sweeps {
-    void (*density)(const struct neighbour_list *list, const struct transport_velocity_arrays *arrays);
-    void (*force)(const struct neighbour_list *list, const struct transport_velocity_arrays *arrays);
+    void (*density)(struct neighbour_list *list, const struct transport_velocity_arrays *arrays);
+    void (*force)(struct neighbour_list *list, const struct transport_velocity_arrays *arrays);
 };
 
 #define TRANSPORT_VELOCITY_DECLARE(isa)                                                                      \

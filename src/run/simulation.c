@@ -19,6 +19,7 @@
 #include "run/status.h"
 #include "run/summary.h"
 #include "solid/solid.h"
+#include "sph/isa.h"
 #include "wall/wall_list.h"
 
 #include <math.h>
@@ -88,10 +89,10 @@ static int solids_create(struct simulation *s)
 }
 
 /** A run goes on with the instruction set that it began with where that is possible. */
-static const char *isa_choose(const struct run_options *options)
+static const char *isa_wanted(const struct run_options *options)
 {
     const bool before = options->resume && strcmp(options->isa, "auto") == 0;
-    return before && fluid_isa_available(options->isa_before) ? options->isa_before : options->isa;
+    return before && isa_available(options->isa_before) ? options->isa_before : options->isa;
 }
 
 static int parts_create(struct simulation *s)
@@ -103,7 +104,7 @@ static int parts_create(struct simulation *s)
                                           .wall_types = wall_types,
                                           .n_wall_types = WALL_TYPES,
                                           .opening_types = open_boundary_types,
-                                          .isa = isa_choose(s->options),
+                                          .isa = isa_wanted(s->options),
                                           .timer = &s->timer};
         CALL(fluid_create(&s->fluid, s->model, &parts));
     }

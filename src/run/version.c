@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/version.h"
 
-#include "fluid/fluid.h"
 #include "revision.h"
+#include "sph/isa.h"
 
 #include <hdf5.h>
 #include <muParserDLL.h>
@@ -27,7 +27,7 @@ void version_print(FILE *stream)
     fprintf(stream, "libpng          %s\n", png_get_libpng_ver(NULL));
     fprintf(stream, "muParser        %s\n", parser ? mupGetVersion(parser) : "?");
     fprintf(stream, "zlib            %s\n", zlibVersion());
-    fprintf(stream, "instruction set %s\n", fluid_isa_best());
+    fprintf(stream, "instruction set %s\n", isa_name(isa_best()));
     if (parser)
         mupRelease(parser);
 }

@@ -7,7 +7,7 @@
 #include <math.h>
 
 int cell_grid_create(struct cell_grid *grid, int dim, const double lower[3], const double upper[3],
-                     const bool periodic[3], double width, double fine)
+                     const bool periodic[3], double reach, double width, double fine)
 {
     *grid = (struct cell_grid){.dim = dim};
     double total = 1.0;
@@ -18,10 +18,10 @@ int cell_grid_create(struct cell_grid *grid, int dim, const double lower[3], con
         grid->lower[k] = used ? lower[k] : -0.5;
         grid->upper[k] = used ? upper[k] : 0.5;
         grid->periodic[k] = used && periodic[k];
-        CHECK(!grid->periodic[k] || length > 2.0 * width, STATUS_DECK,
+        CHECK(!grid->periodic[k] || length > 2.0 * reach, STATUS_DECK,
               "the domain is periodic in %c over %g m: it must be longer than %g m, twice the reach of a "
               "particle",
-              "xyz"[k], length, 2.0 * width);
+              "xyz"[k], length, 2.0 * reach);
         double count = used ? fmax(1.0, floor(length / least * (1.0 + 1e-12))) : 1.0;
         total *= count;
         CHECK(total < 2.0e9, STATUS_DECK,

@@ -31,9 +31,10 @@ struct cell_range {
 
 enum { CELL_GRID_RANGES = 512 };
 
-/** Prepare for a domain; @p width: least width of rows; @p fine: width of the cells along x. */
+/** Prepare for a domain; @p reach: how far searches look at most (periodic directions must be longer than
+ * twice that); @p width: least width of rows; @p fine: of the cells along x. */
 int cell_grid_create(struct cell_grid *grid, int dim, const double lower[3], const double upper[3],
-                     const bool periodic[3], double width, double fine);
+                     const bool periodic[3], double reach, double width, double fine);
 void cell_grid_reset(struct cell_grid *grid);
 
 /** Sort @p n points (separate coordinate arrays): @p order[new] = old. Points outside the domain (not

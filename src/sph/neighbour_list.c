@@ -5,123 +5,128 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 
-/** Cut each row of the sorted particles into clusters. */
-static int clusters_make(struct neighbour_list *list, const struct cell_grid *grid, size_t n)
+static neighbour_filter *const filters[ISAS] = ISA_TABLE(neighbour_filter, mixed);
+
+/** Cut one row of the sorted particles into clusters that extend over at most @p span cells. */
+static void row_cut(struct neighbour_list *list, const uint32_t *start, size_t cells, size_t span)
 {
-    size_t rows = (size_t)grid->cells[1] * (size_t)grid->cells[2];
-    CALL(memory_grow((void **)&list->clusters, &list->cluster_capacity, n / NEIGHBOUR_LANES + rows + 1,
-                     sizeof *list->clusters));
-    list->n_clusters = 0;
+    size_t cell = 0;
+    for (uint32_t first = start[0], end = start[cells]; first < end;) {
+        while (start[cell + 1] <= first)
+            ++cell;
+        uint32_t next = start[cell + span < cells ? cell + span : cells];
+        if (next > first + NEIGHBOUR_LANES)
+            next = first + NEIGHBOUR_LANES;
+        for (uint32_t i = first; i < next; ++i)
+            list->cluster_of[i] = (uint32_t)list->n_clusters;
+        list->clusters[list->n_clusters++] = (struct neighbour_cluster){
+            .first = first, .slot = (uint32_t)list->n_slots, .count = (uint16_t)(next - first)};
+        list->n_slots += (next - first + 1) & ~1u;
+        first = next;
+    }
+}
+
+static int clusters_make(struct neighbour_list *list, const struct cell_grid *grid, size_t n, double radius)
+{
+    const size_t rows = (size_t)grid->cells[1] * (size_t)grid->cells[2], cells = (size_t)grid->cells[0];
+    const double reach = 2.0 * radius / grid->row_width[0];
+    const size_t span = reach < 1.0 ? 1 : reach < 1e9 ? (size_t)reach : (size_t)1e9;
+    CALL(memory_grow((void **)&list->cluster_of, &list->cluster_of_capacity, n, sizeof *list->cluster_of));
+    list->n_clusters = list->n_slots = 0;
     for (size_t row = 0; row < rows; ++row) {
-        uint32_t begin = grid->start[row * (size_t)grid->cells[0]];
-        uint32_t end = grid->start[(row + 1) * (size_t)grid->cells[0]];
-        for (uint32_t first = begin; first < end; first += NEIGHBOUR_LANES) {
-            uint32_t count = end - first < NEIGHBOUR_LANES ? end - first : NEIGHBOUR_LANES;
-            list->clusters[list->n_clusters++] =
-                (struct neighbour_cluster){.first = first, .count = (uint16_t)count};
-        }
+        const uint32_t *start = grid->start + row * cells;
+        /* at most one more for each stretch of cells */
+        const size_t most = (start[cells] - start[0]) / NEIGHBOUR_LANES + cells / span + 2;
+        CALL(memory_grow((void **)&list->clusters, &list->cluster_capacity, list->n_clusters + most,
+                         sizeof *list->clusters));
+        row_cut(list, start, cells, span);
     }
     return 0;
 }
 
-struct box {
-    double lower[3], upper[3];
-};
-
-static struct box cluster_box(const struct neighbour_cluster *cluster, const double *const x[3])
+static void query_make(struct neighbour_query *query, const struct neighbour_cluster *cluster)
 {
-    struct box box;
-    for (int k = 0; k < 3; ++k) {
-        box.lower[k] = box.upper[k] = x[k][cluster->first];
-        for (uint32_t i = cluster->first + 1; i < cluster->first + cluster->count; ++i) {
-            if (x[k][i] < box.lower[k])
-                box.lower[k] = x[k][i];
-            if (x[k][i] > box.upper[k])
-                box.upper[k] = x[k][i];
+    for (int k = 0; k < query->dim; ++k) {
+        const double *x = query->x[k] + cluster->first;
+        query->lower[k] = query->upper[k] = x[0];
+        for (int i = 1; i < cluster->count; ++i) {
+            query->lower[k] = x[i] < query->lower[k] ? x[i] : query->lower[k];
+            query->upper[k] = x[i] > query->upper[k] ? x[i] : query->upper[k];
         }
     }
-    return box;
 }
 
-static double box_distance2(const struct box *box, const double x[3])
-{
-    double d2 = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        double d = x[k] < box->lower[k]   ? box->lower[k] - x[k]
-                   : x[k] > box->upper[k] ? x[k] - box->upper[k]
-                                          : 0.0;
-        d2 += d * d;
-    }
-    return d2;
-}
-
+/** The candidates among clusters @p first to @p last - 1. */
 static int segment_add(struct neighbour_chunk *chunk, struct neighbour_cluster *cluster,
-                       const struct box *box, const double *const x[3], const struct cell_range *range,
-                       double radius2)
+                       const struct neighbour_list *list, const struct neighbour_query *query, size_t first,
+                       size_t last, const double shift[3], neighbour_filter *filter)
 {
-    for (uint32_t base = range->begin; base < range->end; base += 65536) {
-        uint32_t end = range->end - base > 65536 ? base + 65536 : range->end;
-        CALL(memory_grow((void **)&chunk->offsets, &chunk->offset_capacity, chunk->n_offsets + (end - base),
-                         sizeof *chunk->offsets));
-        size_t offset = chunk->n_offsets;
-        for (uint32_t j = base; j < end; ++j) {
-            double y[3];
-            for (int k = 0; k < 3; ++k)
-                y[k] = x[k][j] + range->shift[k];
-            if (box_distance2(box, y) < radius2)
-                chunk->offsets[chunk->n_offsets++] = (uint16_t)(j - base);
-        }
-        if (chunk->n_offsets == offset)
+    enum { MOST = 4096 }; /* clusters; 16 bits can tell the couples of 16384 apart */
+    for (size_t end; first < last; first = end) {
+        end = last - first > MOST ? first + MOST : last;
+        const uint32_t base = list->clusters[first].slot / 2;
+        CALL(memory_grow((void **)&chunk->offsets, &chunk->offset_capacity,
+                         chunk->n_offsets + (end - first) * (NEIGHBOUR_LANES / 2), sizeof *chunk->offsets));
+        const size_t found = filter(query, list->clusters + first, end - first, shift, base,
+                                    chunk->offsets + chunk->n_offsets);
+        if (!found)
             continue;
         CALL(memory_grow((void **)&chunk->segments, &chunk->segment_capacity, chunk->n_segments + 1,
                          sizeof *chunk->segments));
-        chunk->segments[chunk->n_segments++] =
-            (struct neighbour_segment){base,
-                                       (uint32_t)(chunk->n_offsets - offset),
-                                       offset,
-                                       {range->shift[0], range->shift[1], range->shift[2]}};
+        chunk->segments[chunk->n_segments++] = (struct neighbour_segment){
+            base, (uint32_t)found, chunk->n_offsets, {shift[0], shift[1], shift[2]}};
+        chunk->n_offsets += found;
         ++cluster->n_segments;
     }
     return 0;
 }
 
 static int cluster_list(struct neighbour_chunk *chunk, struct neighbour_cluster *cluster,
-                        const struct cell_grid *grid, const double *const x[3], double radius)
+                        const struct neighbour_list *list, const struct cell_grid *grid,
+                        struct neighbour_query *query, neighbour_filter *filter)
 {
-    struct box box = cluster_box(cluster, x);
     struct cell_range ranges[CELL_GRID_RANGES];
-    double lower[3], upper[3];
-    for (int k = 0; k < 3; ++k) {
-        cluster->centre[k] = 0.5 * (box.lower[k] + box.upper[k]);
-        lower[k] = box.lower[k] - radius;
-        upper[k] = box.upper[k] + radius;
+    double lower[3] = {0}, upper[3] = {0};
+    query_make(query, cluster);
+    for (int k = 0; k < query->dim; ++k) {
+        lower[k] = query->lower[k] - query->radius;
+        upper[k] = query->upper[k] + query->radius;
     }
     size_t n = cell_grid_box_ranges(grid, lower, upper, ranges);
+    CALL(memory_grow((void **)&chunk->offsets, &chunk->offset_capacity, chunk->n_offsets + 7,
+                     sizeof *chunk->offsets));
+    while (chunk->n_offsets & 7)
+        chunk->offsets[chunk->n_offsets++] = 0;
     cluster->segment = (uint32_t)chunk->n_segments;
     cluster->n_segments = 0;
     for (size_t r = 0; r < n; ++r)
-        CALL(segment_add(chunk, cluster, &box, x, &ranges[r], radius * radius));
+        CALL(segment_add(chunk, cluster, list, query, list->cluster_of[ranges[r].begin],
+                         list->cluster_of[ranges[r].end - 1] + 1, ranges[r].shift, filter));
     return 0;
 }
 
 int neighbour_list_make(struct neighbour_list *list, const struct cell_grid *grid, const double *const x[3],
-                        size_t n, double radius)
+                        size_t n, double radius, enum isa isa)
 {
     size_t threads = (size_t)parallel_threads();
-    if (list->n_chunks < threads) {
+    if (list->n_chunks < threads)
         CALL(memory_grow((void **)&list->chunks, &list->n_chunks, threads, sizeof *list->chunks));
-    }
-    CALL(clusters_make(list, grid, n));
+    CALL(clusters_make(list, grid, n, radius));
+    list->radius = radius;
+    list->fresh = true;
     int status = 0;
 #pragma omp parallel for schedule(static) reduction(| : status)
     for (size_t c = 0; c < threads; ++c) {
         struct neighbour_chunk *chunk = &list->chunks[c];
+        struct neighbour_query query = {.dim = grid->dim, .x = {x[0], x[1], x[2]}, .radius = radius};
         size_t first = list->n_clusters * c / threads, last = list->n_clusters * (c + 1) / threads;
         chunk->n_segments = chunk->n_offsets = 0;
         for (size_t k = first; k < last && !status; ++k) {
             list->clusters[k].chunk = (uint16_t)c;
-            status = cluster_list(chunk, &list->clusters[k], grid, x, radius);
+            status = cluster_list(chunk, &list->clusters[k], list, grid, &query, filters[isa]);
         }
+        if (!status) /* whole words can be read behind the last bit */
+            status = memory_grow((void **)&chunk->near, &chunk->near_capacity, chunk->n_offsets / 8 + 9, 1);
     }
     return status;
 }
@@ -131,17 +136,21 @@ void neighbour_list_reset(struct neighbour_list *list)
     for (size_t c = 0; c < list->n_chunks; ++c) {
         memory_free(list->chunks[c].segments);
         memory_free(list->chunks[c].offsets);
+        memory_free(list->chunks[c].near);
     }
     memory_free(list->chunks);
     memory_free(list->clusters);
+    memory_free(list->cluster_of);
     *list = (struct neighbour_list){0};
 }
 
 size_t neighbour_list_bytes(const struct neighbour_list *list)
 {
-    size_t bytes = list->cluster_capacity * sizeof *list->clusters;
+    size_t bytes = list->cluster_capacity * sizeof *list->clusters +
+                   list->cluster_of_capacity * sizeof *list->cluster_of;
     for (size_t c = 0; c < list->n_chunks; ++c)
         bytes += list->chunks[c].segment_capacity * sizeof *list->chunks[c].segments +
-                 list->chunks[c].offset_capacity * sizeof *list->chunks[c].offsets;
+                 list->chunks[c].offset_capacity * sizeof *list->chunks[c].offsets +
+                 list->chunks[c].near_capacity;
     return bytes;
 }

@@ -267,7 +267,7 @@ static int fixed_particles_create(struct boundary *boundary, const struct model 
     fields_register(boundary, f);
     double reach = view->kernel.support + view->skin;
     return cell_grid_create(&f->grid, model->dim, model->domain.lower, model->domain.upper,
-                            model->domain.periodic, reach, view->spacing);
+                            model->domain.periodic, reach, reach, view->spacing);
 }
 
 static void fixed_particles_destroy(struct boundary *boundary)

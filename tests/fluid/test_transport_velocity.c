@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "fluid/fluid_case.h"
+#include "sph/isa.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -132,19 +133,13 @@ static void compare(int dim, const int cells[3], double jitter, int cluster, enu
 
 static const char *const isas[] = {"baseline", "v3", "v4"};
 
-static bool isa_here(const char *isa)
-{
-    const char *best = fluid_isa_best();
-    return !strcmp(isa, "baseline") || !strcmp(best, "v4") || !strcmp(best, isa);
-}
-
 static void sweeps_match_equations(void **state)
 {
     (void)state;
     static const int cells[4][3] = {{0}, {57, 1, 1}, {23, 19, 1}, {11, 9, 13}};
     for (size_t s = 0; s < 3; ++s)
         for (int dim = 1; dim <= 3; ++dim) {
-            if (!isa_here(isas[s]))
+            if (!isa_available(isas[s]))
                 continue;
             compare(dim, cells[dim], 0.0, 0, ARITHMETIC_DOUBLE, isas[s], 1e-13, 1e-11);
             compare(dim, cells[dim], 0.2, 0, ARITHMETIC_DOUBLE, isas[s], 1e-13, 1e-11);

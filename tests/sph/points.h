@@ -62,7 +62,8 @@ static inline void points_make(struct points *points, int dim, int kind, size_t 
 static inline void points_grid(const struct points *points, struct cell_grid *grid)
 {
     assert_int_equal(
-        cell_grid_create(grid, points->dim, points->lower, points->upper, points->periodic, 0.37, 0.11), 0);
+        cell_grid_create(grid, points->dim, points->lower, points->upper, points->periodic, 0.37, 0.37, 0.11),
+        0);
 }
 
 /** Put the points in the order of the grid. */

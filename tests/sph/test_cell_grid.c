@@ -159,15 +159,15 @@ static void test_errors(void **state)
     uint32_t order[1];
     const double *const x[3] = {lower, lower, lower};
     // periodic sides must be further apart than twice the reach
-    assert_int_equal(cell_grid_create(&grid, 2, lower, upper, wraps, 0.55, 0.1), STATUS_DECK);
+    assert_int_equal(cell_grid_create(&grid, 2, lower, upper, wraps, 0.55, 0.4, 0.1), STATUS_DECK);
     cell_grid_reset(&grid);
-    assert_int_equal(cell_grid_create(&grid, 2, lower, upper, wraps, 0.54, 0.1), 0);
+    assert_int_equal(cell_grid_create(&grid, 2, lower, upper, wraps, 0.54, 0.4, 0.1), 0);
     assert_int_equal(grid.cells[0], 20);
     assert_int_equal(grid.cells[1], 2);
     assert_int_equal(grid.cells[2], 1);
     assert_int_equal(cell_grid_sort(&grid, x, UINT32_MAX, order), STATUS_MEMORY);
     cell_grid_reset(&grid);
-    assert_int_equal(cell_grid_create(&grid, 3, lower, upper, none, 1e-4, 1e-4), STATUS_DECK);
+    assert_int_equal(cell_grid_create(&grid, 3, lower, upper, none, 1e-4, 1e-4, 1e-4), STATUS_DECK);
     cell_grid_reset(&grid);
 }
 

@@ -21,18 +21,27 @@ static const double *const *place(const struct points *points)
     return x;
 }
 
+/** The slot of particle @p j. */
+static size_t slot_of(const struct neighbour_list *list, size_t j)
+{
+    const struct neighbour_cluster *cluster = &list->clusters[list->cluster_of[j]];
+    assert_in_range(j, cluster->first, cluster->first + cluster->count - 1);
+    return cluster->slot + (j - cluster->first);
+}
+
 /** How often the list of a cluster names point @p j in the image @p shift. */
 static int times_listed(const struct neighbour_list *list, const struct neighbour_cluster *cluster, size_t j,
                         const double shift[3])
 {
     const struct neighbour_chunk *chunk = &list->chunks[cluster->chunk];
+    const size_t couple = slot_of(list, j) / 2;
     int times = 0;
     for (uint32_t s = 0; s < cluster->n_segments; ++s) {
         const struct neighbour_segment *segment = &chunk->segments[cluster->segment + s];
         if (points_distance(segment->shift, shift, (const double[3]){0.0, 0.0, 0.0}) > 1e-12)
             continue;
         for (uint32_t k = 0; k < segment->count; ++k)
-            times += segment->base + chunk->offsets[segment->offset + k] == j;
+            times += segment->base + chunk->offsets[segment->offset + k] == couple;
     }
     return times;
 }
@@ -75,7 +84,8 @@ static void test_pairs(void **state)
             points_grid(&points, &grid);
             points_sort(&points, &grid);
             // the list is used again: it must forget what it held
-            assert_int_equal(neighbour_list_make(&list, &grid, place(&points), points.n, radius), 0);
+            assert_int_equal(
+                neighbour_list_make(&list, &grid, place(&points), points.n, radius, ISA_BASELINE), 0);
             for (size_t c = 0; c < list.n_clusters; ++c) {
                 const struct neighbour_cluster *cluster = &list.clusters[c];
                 assert_int_equal(cluster->first, next);
@@ -104,7 +114,8 @@ static void test_threads(void **state)
     points_sort(&points, &grid);
     for (int t = 0; t < 2; ++t) {
         parallel_setup(1 + 2 * t);
-        assert_int_equal(neighbour_list_make(&lists[t], &grid, place(&points), points.n, radius), 0);
+        assert_int_equal(
+            neighbour_list_make(&lists[t], &grid, place(&points), points.n, radius, ISA_BASELINE), 0);
     }
     parallel_setup(1);
     assert_int_equal(lists[0].n_clusters, lists[1].n_clusters);
@@ -128,25 +139,37 @@ static void test_threads(void **state)
     cell_grid_reset(&grid);
 }
 
-/** Offsets have 16 bits: a row of more than 65536 points takes several segments. */
+/** A row of @p n points at @p x in one cell of length @p length; the list for radius 1.5. */
+static void row_list(struct neighbour_list *list, double *x, uint32_t n, double length, double cell)
+{
+    static const double lower[3] = {0.0, 0.0, 0.0};
+    static const bool none[3] = {false, false, false};
+    const double upper[3] = {length, 1.0, 1.0};
+    struct cell_grid grid;
+    double *zero = memory_create(n, sizeof *zero);
+    uint32_t *order = memory_create(n, sizeof *order);
+    assert_true(zero && order);
+    const double *const places[3] = {x, zero, zero};
+    assert_int_equal(cell_grid_create(&grid, 1, lower, upper, none, 1.5, length, cell), 0);
+    assert_int_equal(cell_grid_sort(&grid, places, n, order), 0);
+    assert_int_equal(neighbour_list_make(list, &grid, places, n, 1.5, isa_best()), 0);
+    cell_grid_reset(&grid);
+    memory_free(zero);
+    memory_free(order);
+}
+
+/** Offsets have 16 bits: a row of many points takes several segments. */
 static void test_long_row(void **state)
 {
     (void)state;
-    enum { N = 66000 };
-    static const double lower[3] = {0.0, 0.0, 0.0}, upper[3] = {N, 1.0, 1.0};
-    static const bool none[3] = {false, false, false};
-    struct cell_grid grid;
+    enum { N = 40000, CLUSTERS = N / NEIGHBOUR_LANES };
     struct neighbour_list list = {0};
-    double *x = memory_create(N, sizeof *x), *zero = memory_create(N, sizeof *zero);
-    uint32_t *order = memory_create(N, sizeof *order);
-    assert_true(x && zero && order);
+    double *x = memory_create(N, sizeof *x);
+    assert_non_null(x);
     for (size_t i = 0; i < N; ++i)
         x[i] = (double)i + 0.5;
-    const double *const places[3] = {x, zero, zero};
-    assert_int_equal(cell_grid_create(&grid, 1, lower, upper, none, N, N), 0);
-    assert_int_equal(grid.cells[0], 1);
-    assert_int_equal(cell_grid_sort(&grid, places, N, order), 0);
-    assert_int_equal(neighbour_list_make(&list, &grid, places, N, 1.5), 0);
+    row_list(&list, x, N, N, N);
+    assert_int_equal(list.n_clusters, CLUSTERS);
     size_t split = 0;
     for (size_t c = 0; c < list.n_clusters; ++c) {
         const struct neighbour_cluster *cluster = &list.clusters[c];
@@ -155,18 +178,56 @@ static void test_long_row(void **state)
         for (uint32_t s = 0; s < cluster->n_segments; ++s)
             for (uint32_t k = 0; k < chunk->segments[cluster->segment + s].count; ++k, ++count) {
                 const struct neighbour_segment *segment = &chunk->segments[cluster->segment + s];
-                const size_t j = segment->base + chunk->offsets[segment->offset + k];
-                assert_true(j + 1 >= cluster->first && j <= cluster->first + cluster->count);
+                const size_t couple = segment->base + chunk->offsets[segment->offset + k];
+                assert_true(2 * couple + 2 >= cluster->slot && 2 * couple <= cluster->slot + cluster->count);
             }
-        assert_int_equal(count, cluster->count + (c > 0) + (c + 1 < list.n_clusters));
+        assert_int_equal(count, cluster->count / 2 + (c > 0) + (c + 1 < list.n_clusters));
         split += cluster->n_segments > 1;
     }
-    assert_int_equal(split, 2); // the clusters before and behind point 65536
+    assert_int_equal(split, 2); // the clusters before and behind point 4096 x 8
     neighbour_list_reset(&list);
-    cell_grid_reset(&grid);
     memory_free(x);
-    memory_free(zero);
-    memory_free(order);
+}
+
+/** Where a row has a gap, a new cluster begins: the particles of a couple stay close to each other. */
+static void test_gap(void **state)
+{
+    (void)state;
+    enum { N = 14 };
+    double x[N] = {0.5, 1.5, 2.5, 7.1, 8.1, 500.0, 500.1, 500.2, 500.3, 500.4, 500.5, 500.6, 500.7, 500.8};
+    static const uint32_t first[] = {0, 3, 5, 13}, slots[] = {0, 4, 6, 14};
+    struct neighbour_list list = {0};
+    row_list(&list, x, N, 600.0, 1.0);
+    assert_int_equal(list.n_clusters, 4);
+    assert_int_equal(list.n_slots, 16);
+    for (size_t c = 0; c < 4; ++c) {
+        assert_int_equal(list.clusters[c].first, first[c]);
+        assert_int_equal(list.clusters[c].slot, slots[c]);
+    }
+    neighbour_list_reset(&list);
+}
+
+/** Every instruction set finds the same. */
+static void test_isas(void **state)
+{
+    (void)state;
+    struct points points;
+    struct cell_grid grid;
+    struct neighbour_list lists[ISAS] = {{0}};
+    points_make(&points, 3, POINTS_PERIODIC, 700);
+    points_grid(&points, &grid);
+    points_sort(&points, &grid);
+    for (enum isa isa = ISA_BASELINE; isa <= isa_best(); ++isa) {
+        struct neighbour_chunk *chunk;
+        assert_int_equal(neighbour_list_make(&lists[isa], &grid, place(&points), points.n, radius, isa), 0);
+        chunk = lists[isa].chunks;
+        assert_int_equal(chunk->n_offsets, lists[0].chunks->n_offsets);
+        assert_memory_equal(chunk->offsets, lists[0].chunks->offsets,
+                            chunk->n_offsets * sizeof *chunk->offsets);
+    }
+    for (int isa = 0; isa < ISAS; ++isa)
+        neighbour_list_reset(&lists[isa]);
+    cell_grid_reset(&grid);
 }
 
 static void test_empty(void **state)
@@ -178,7 +239,7 @@ static void test_empty(void **state)
     points_make(&points, 2, POINTS_RANDOM, 0);
     points_grid(&points, &grid);
     points_sort(&points, &grid);
-    assert_int_equal(neighbour_list_make(&list, &grid, place(&points), 0, radius), 0);
+    assert_int_equal(neighbour_list_make(&list, &grid, place(&points), 0, radius, ISA_BASELINE), 0);
     assert_int_equal(list.n_clusters, 0);
     neighbour_list_reset(&list);
     cell_grid_reset(&grid);
@@ -194,10 +255,8 @@ static int one_thread(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pairs),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_long_row),
-        cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_pairs), cmocka_unit_test(test_threads), cmocka_unit_test(test_long_row),
+        cmocka_unit_test(test_gap),   cmocka_unit_test(test_isas),    cmocka_unit_test(test_empty),
     };
     return cmocka_run_group_tests(tests, one_thread, NULL);
 }

@@ -41,7 +41,7 @@ static inline void scene_start(struct scene *scene, int dim, double lower, doubl
     scene->model.path = (char *)"scene.xml";
     scene->model.fluid.spacing = 1.0;
     assert_int_equal(particles_create(&scene->particles, "fluid", dim, 16), 0);
-    assert_int_equal(cell_grid_create(&scene->grid, dim, low, high, wraps, 3.3, 1.0), 0);
+    assert_int_equal(cell_grid_create(&scene->grid, dim, low, high, wraps, 3.3, 3.3, 1.0), 0);
     scene->view = (struct fluid_view){.dim = dim,
                                       .spacing = 1.0,
                                       .mass = 1.0,
