@@ -113,6 +113,7 @@ int neighbour_list_make(struct neighbour_list *list, const struct cell_grid *gri
         CALL(memory_grow((void **)&list->chunks, &list->n_chunks, threads, sizeof *list->chunks));
     CALL(clusters_make(list, grid, n, radius));
     list->radius = radius;
+    list->length = grid->periodic[0] ? grid->upper[0] - grid->lower[0] : 0.0;
     list->fresh = true;
     int status = 0;
 #pragma omp parallel for schedule(static) reduction(| : status)

@@ -41,7 +41,7 @@ struct neighbour_list {
     size_t n_clusters, cluster_capacity;
     struct neighbour_cluster *clusters;
     size_t n_slots;
-    double radius;
+    double radius, length; /**< of the pairs; of the domain along x where that is periodic, else 0 */
     bool fresh; /**< the particles are where they were when the list was made: sweeps may shorten it */
     uint32_t *cluster_of; /**< of each particle */
     size_t cluster_of_capacity;

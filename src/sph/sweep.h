@@ -20,6 +20,8 @@
 #include "sph/neighbour_list.h"
 #include "sph/sweep_vector.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 enum {
@@ -93,10 +95,27 @@ SWEEP_INLINE vplace sweep_spread_place(const place *from)
     return *from + (vplace){0};
 }
 
+/** Where along x the idle slot of a couple is put, from its other one: so that neither it nor an image of it
+ * comes near anybody who meets the couple. */
+static inline place sweep_idle(const struct sweep *sweep)
+{
+    const double clear = 8.0 * sweep->list->radius * sweep->units, wrap = 4294967296.0;
+    for (double away = clear;; away += clear) {
+        bool good = true;
+        for (int image = -1; image <= 1; ++image) {
+            const double distance = away + image * sweep->list->length * sweep->units;
+            good &= fabs(SWEEP_SINGLE ? remainder(distance, wrap) : distance) >= clear;
+        }
+        if (good)
+            return sweep_place(away, 1.0);
+    }
+}
+
 /** Write the places of all particles. */
 SWEEP_INLINE void sweep_places(const struct sweep *sweep, const double *const x[3], int dim)
 {
     const struct neighbour_list *list = sweep->list;
+    const place idle = sweep_idle(sweep);
 #pragma omp parallel for schedule(static)
     for (size_t c = 0; c < list->n_clusters; ++c) {
         const struct neighbour_cluster *cluster = &list->clusters[c];
@@ -105,9 +124,9 @@ SWEEP_INLINE void sweep_places(const struct sweep *sweep, const double *const x[
             place *to = sweep->places + sweep_at(cluster->slot, k, dim);
             for (int l = 0; l < cluster->count; ++l)
                 to[sweep_at((size_t)l, 0, dim)] = sweep_place(from[l], sweep->units);
-            if (cluster->count & 1) /* the idle slot is far from everybody */
+            if (cluster->count & 1)
                 to[sweep_at(cluster->count, 0, dim)] =
-                    to[sweep_at(cluster->count - 1u, 0, dim)] + (place)(24.0 * SWEEP_UNITS);
+                    to[sweep_at(cluster->count - 1u, 0, dim)] + (k == 0 ? idle : 0);
         }
     }
 }
@@ -228,7 +247,8 @@ SWEEP_INLINE void sweep_cluster(const struct sweep *sweep, const struct neighbou
                 bit = 1;
             }
         }
-        *to = (uint8_t)bits;
+        if (bit > 1) /* else this byte may be the next cluster's, and another thread's */
+            *to = (uint8_t)bits;
         if (fresh)
             segment->count = kept;
     }
