@@ -6,6 +6,12 @@ tools_skerry_machine_SOURCES = tools/machine.c
 tools_skerry_machine_CFLAGS = $(AM_CFLAGS) -ffp-contract=fast
 tools_skerry_machine_LDADD =
 
+# The sweeps' frame under a formulation with one evaluation, for skerry-bench.
+noinst_PROGRAMS += tools/skerry-pass
+tools_skerry_pass_SOURCES = tools/pass.c tools/pass.h
+tools_skerry_pass_LDADD = $(pass_libraries) libskerry.la
+pass_sources = tools/pass_sweeps.c tools/pass.h
+
 EXTRA_DIST += \
 	tools/skerry-bench \
 	tools/skerry-demo-report \
