@@ -166,6 +166,17 @@ class Files(unittest.TestCase):
         self.assertEqual(lines[2], "F2,taylor-couette,error,0.6,,1,%,yes,0.05,3768,6400,5.2,4.6e+06,-")
         self.assertEqual(len(lines), 7)
 
+    def test_table_keeps_runs_of_the_papers_size(self):
+        path = self.path("validation.csv")
+        large, small = (["F6", "turek-hron-fsi2", "u_y", "old"] + ["1"] * 4 + [dx] + ["1"] * 5 for dx in ("0.002", "0.005"))
+        new = {row[8]: row[:3] + ["new"] + row[4:] for row in (large, small)}
+        for made, values in ((["0.005"], ["old", "new"]), (["0.005", "0.002"], ["new", "new"])):
+            validate.write_table(path, [large, small], {"turek-hron-fsi2"})
+            validate.write_table(path, [new[dx] for dx in made], {"turek-hron-fsi2"})
+            with open(path, encoding="utf-8") as stream:
+                rows = [line.split(",") for line in stream.read().split()[1:]]
+            self.assertEqual([row[3] for row in sorted(rows, key=lambda row: row[8])], values)
+
 
 class Figures(unittest.TestCase):
     def test_asymmetry_of_a_ring(self):
