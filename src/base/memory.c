@@ -43,9 +43,9 @@ int memory_grow(void **memory, size_t *capacity, size_t needed, size_t size)
     if (*memory && needed <= *capacity)
         return STATUS_OK;
 
-    // Half as much again keeps repeated growth by one item cheap; the exact need is the fallback near the
-    // limit.
-    size_t count = *capacity + *capacity / 2;
+    // An eighth more keeps repeated growth by one item cheap without much idle memory; the exact need is the
+    // fallback near the limit.
+    size_t count = *capacity + *capacity / 8;
     if (count < needed || !padded_size(count, size))
         count = needed;
     void *grown = memory_create(count, size);

@@ -485,8 +485,11 @@ size_t fluid_bytes(const struct fluid *fluid)
     size_t bytes = neighbour_list_bytes(&fluid->list);
     for (size_t k = 0; k < fluid->block->fields.n_fields; ++k) {
         const struct field *field = &fluid->block->fields.fields[k];
-        bytes += fluid->block->capacity * field_size(field->type) * (size_t)field->components;
+        const int components = field->components > fluid->model->dim ? fluid->model->dim : field->components;
+        bytes += fluid->block->capacity * field_size(field->type) * (size_t)components;
     }
+    bytes += 2 * fluid->block->capacity * sizeof(double); /* zeros and room for sorting */
+    bytes += fluid->type->bytes(fluid);
     return bytes + fluid->order_capacity * sizeof *fluid->order + fluid->dead_capacity +
            fluid->grid.start_capacity * sizeof *fluid->grid.start +
            fluid->grid.cell_of_capacity * sizeof *fluid->grid.cell_of;

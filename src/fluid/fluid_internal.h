@@ -67,6 +67,8 @@ struct fluid_type {
      * and per neighbour the force on the particle. */
     void (*wall_pair)(const struct fluid *fluid, size_t i, const struct wall_neighbours *neighbours,
                       double a[3], double a_background[3], double *const force[3]);
+    /** Memory of the formulation that is no field of the block. */
+    size_t (*bytes)(const struct fluid *fluid);
     /** Fluid-fluid forces, wall forces added, final kick over dt. */
     int (*finish)(struct fluid *fluid, double dt);
 };

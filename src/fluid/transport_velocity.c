@@ -57,6 +57,14 @@ static void transport_velocity_destroy(struct fluid *fluid)
     memory_free(tv);
 }
 
+static size_t transport_velocity_bytes(const struct fluid *fluid)
+{
+    const struct transport_velocity *tv = fluid->data;
+    const size_t size = fluid->model->fluid.arithmetic == ARITHMETIC_DOUBLE ? sizeof(double) : sizeof(float);
+    const size_t dim = (size_t)fluid->model->dim;
+    return (tv->places_capacity * dim + tv->records_capacity * (2 * dim + 3)) * size;
+}
+
 static void transport_velocity_start(struct fluid *fluid)
 {
     struct transport_velocity *tv = fluid->data;
@@ -281,6 +289,7 @@ const struct fluid_type fluid_transport_velocity = {
     .start = transport_velocity_start,
     .density = transport_velocity_density,
     .pressure = transport_velocity_pressure,
+    .bytes = transport_velocity_bytes,
     .wall_pair = transport_velocity_wall_pair,
     .finish = transport_velocity_finish,
 };

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 enum { POINTERS = 3 }; // of a field: struct field has room for three components
@@ -14,6 +15,12 @@ static void owner_set(struct particles *particles, size_t field, int component, 
 {
     particles->fields.fields[field].data[component] = array;
     memcpy(particles->owners[POINTERS * field + (size_t)component], &array, sizeof array);
+}
+
+// Components of a vector that have no direction in this problem: all of them are one array of zeros.
+static bool is_void(const struct particles *particles, const struct field *field, int component)
+{
+    return field->components == POINTERS && component >= particles->dim;
 }
 
 static int fields_reserve(struct particles *particles, size_t n)
@@ -35,18 +42,20 @@ static int field_add(struct particles *particles, const char *name, const char *
     CHECK(!field_find(&particles->fields, name), STATUS_NUMERICAL, "particles %s: field %s exists already",
           particles->fields.name, name);
     CALL(fields_reserve(particles, particles->fields.n_fields + 1));
+    const struct field field = {
+        .name = name, .unit = unit, .type = type, .components = components, .flags = flags};
     void *arrays[POINTERS] = {NULL};
     for (int c = 0; c < components; ++c) {
-        arrays[c] = memory_create(particles->capacity, field_size(type));
-        if (!arrays[c]) {
+        arrays[c] = is_void(particles, &field, c) ? particles->zeros
+                                                  : memory_create(particles->capacity, field_size(type));
+        if (!arrays[c] && particles->capacity) {
             while (c > 0)
                 memory_free(arrays[--c]);
             return STATUS_MEMORY;
         }
     }
     size_t index = particles->fields.n_fields++;
-    particles->fields.fields[index] =
-        (struct field){.name = name, .unit = unit, .type = type, .components = components, .flags = flags};
+    particles->fields.fields[index] = field;
     for (int c = 0; c < components; ++c) {
         particles->owners[POINTERS * index + (size_t)c] = (void **)data + c;
         owner_set(particles, index, c, arrays[c]);
@@ -110,7 +119,9 @@ void particles_destroy(struct particles *particles)
         return;
     for (size_t f = 0; f < particles->fields.n_fields; ++f)
         for (int c = 0; c < POINTERS; ++c)
-            memory_free(particles->fields.fields[f].data[c]);
+            if (!is_void(particles, &particles->fields.fields[f], c))
+                memory_free(particles->fields.fields[f].data[c]);
+    memory_free(particles->zeros);
     memory_free(particles->scratch);
     memory_free(particles->owners);
     memory_free(particles->fields.fields);
@@ -141,9 +152,17 @@ int particles_reserve(struct particles *particles, size_t capacity)
     CHECK(capacity <= UINT32_MAX, STATUS_MEMORY,
           "particles %s: %zu particles wanted, but the sort counts to %lu; use a larger spacing",
           particles->fields.name, capacity, (unsigned long)UINT32_MAX);
+    if (particles->dim < POINTERS) {
+        size_t old = particles->capacity;
+        CALL(memory_grow(&particles->zeros, &old, capacity, sizeof(double)));
+    }
     for (size_t f = 0; f < particles->fields.n_fields; ++f) {
         const struct field *field = &particles->fields.fields[f];
         for (int c = 0; c < field->components; ++c) {
+            if (is_void(particles, field, c)) {
+                owner_set(particles, f, c, particles->zeros);
+                continue;
+            }
             size_t old = particles->capacity;
             void *array = field->data[c];
             CALL(memory_grow(&array, &old, capacity, field_size(field->type)));
@@ -166,7 +185,8 @@ int particles_append(struct particles *particles, enum particle_kind kind, const
         const struct field *field = &particles->fields.fields[f];
         size_t size = field_size(field->type);
         for (int c = 0; c < field->components; ++c)
-            memset((char *)field->data[c] + n * size, 0, size);
+            if (!is_void(particles, field, c))
+                memset((char *)field->data[c] + n * size, 0, size);
     }
     particles->id[n] = particles->next_id++;
     particles->kind[n] = (uint8_t)kind;
@@ -211,7 +231,8 @@ int particles_permute(struct particles *particles, const uint32_t *order, size_t
         const struct field *field = &particles->fields.fields[f];
         if (field->flags & FIELD_SORTED)
             for (int c = 0; c < field->components; ++c)
-                array_permute(particles, f, c, order, n);
+                if (!is_void(particles, field, c))
+                    array_permute(particles, f, c, order, n);
     }
     particles->n = n;
     return 0;

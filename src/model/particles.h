@@ -10,7 +10,8 @@ enum particle_kind { PARTICLE_FLUID = 0, PARTICLE_INFLOW = 1, PARTICLE_OUTFLOW =
 
 /** A block of particles as a structure of arrays. The moving block (fluid and open-boundary zones) is sorted
  * by the cell grid; nothing may keep indices across a sort, only ids. Vectors are separate arrays per
- * component; those beyond the dimension of the problem exist and are zero. */
+ * component; those beyond the dimension of the problem exist and are zero: all the same array, not to be
+ * written. */
 struct particles {
     int dim;
     size_t n, capacity;
@@ -26,6 +27,7 @@ struct particles {
     struct field_group fields; /**< every array above and those of particles_add_field */
     size_t fields_capacity;
     void ***owners; /**< addresses of the pointers to the arrays, refreshed when arrays move */
+    void *zeros;    /**< components beyond the dimension */
     void *scratch;  /**< room for one array of 8-byte items: the sort needs no other memory */
 };
 

@@ -5,6 +5,8 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 
+#include <math.h>
+
 static neighbour_filter *const filters[ISAS] = ISA_TABLE(neighbour_filter, mixed);
 
 /** Cut one row of the sorted particles into clusters that extend over at most @p span cells. */
@@ -59,9 +61,10 @@ static void query_make(struct neighbour_query *query, const struct neighbour_clu
 /** The candidates among clusters @p first to @p last - 1. */
 static int segment_add(struct neighbour_chunk *chunk, struct neighbour_cluster *cluster,
                        const struct neighbour_list *list, const struct neighbour_query *query, size_t first,
-                       size_t last, const double shift[3], neighbour_filter *filter)
+                       size_t last, unsigned image, neighbour_filter *filter)
 {
     enum { MOST = 4096 }; /* clusters; 16 bits can tell the couples of 16384 apart */
+    const double *shift = list->shift[image];
     for (size_t end; first < last; first = end) {
         end = last - first > MOST ? first + MOST : last;
         const uint32_t base = list->clusters[first].slot / 2;
@@ -73,12 +76,31 @@ static int segment_add(struct neighbour_chunk *chunk, struct neighbour_cluster *
             continue;
         CALL(memory_grow((void **)&chunk->segments, &chunk->segment_capacity, chunk->n_segments + 1,
                          sizeof *chunk->segments));
-        chunk->segments[chunk->n_segments++] = (struct neighbour_segment){
-            base, (uint32_t)found, chunk->n_offsets, {shift[0], shift[1], shift[2]}};
+        chunk->segments[chunk->n_segments++] =
+            (struct neighbour_segment){base, (uint32_t)chunk->n_offsets, (uint16_t)found, (uint8_t)image};
         chunk->n_offsets += found;
+        CHECK(chunk->n_offsets < UINT32_MAX - 16, STATUS_MEMORY,
+              "a thread would have more than 4e9 candidates of neighbours in its list; use more threads");
         ++cluster->n_segments;
     }
     return 0;
+}
+
+/** Number of the periodic image that a range of cells belongs to: as many lengths of the domain along x, y, z
+ * as its digits to the base 3, less one each. */
+static unsigned image_of(const struct cell_grid *grid, const double shift[3])
+{
+    unsigned image = 0;
+    for (int k = 2; k >= 0; --k)
+        image = 3 * image + 1 + (unsigned)(int)lround(shift[k] / (grid->upper[k] - grid->lower[k]));
+    return image;
+}
+
+static void images_make(struct neighbour_list *list, const struct cell_grid *grid)
+{
+    for (int image = 0; image < NEIGHBOUR_IMAGES; ++image)
+        for (int k = 0, rest = image; k < 3; ++k, rest /= 3)
+            list->shift[image][k] = (rest % 3 - 1) * (grid->upper[k] - grid->lower[k]);
 }
 
 static int cluster_list(struct neighbour_chunk *chunk, struct neighbour_cluster *cluster,
@@ -101,7 +123,7 @@ static int cluster_list(struct neighbour_chunk *chunk, struct neighbour_cluster 
     cluster->n_segments = 0;
     for (size_t r = 0; r < n; ++r)
         CALL(segment_add(chunk, cluster, list, query, list->cluster_of[ranges[r].begin],
-                         list->cluster_of[ranges[r].end - 1] + 1, ranges[r].shift, filter));
+                         list->cluster_of[ranges[r].end - 1] + 1, image_of(grid, ranges[r].shift), filter));
     return 0;
 }
 
@@ -112,6 +134,7 @@ int neighbour_list_make(struct neighbour_list *list, const struct cell_grid *gri
     if (list->n_chunks < threads)
         CALL(memory_grow((void **)&list->chunks, &list->n_chunks, threads, sizeof *list->chunks));
     CALL(clusters_make(list, grid, n, radius));
+    images_make(list, grid);
     list->radius = radius;
     list->length = grid->periodic[0] ? grid->upper[0] - grid->lower[0] : 0.0;
     list->fresh = true;

@@ -7,11 +7,13 @@
 
 enum { NEIGHBOUR_LANES = 8 };
 
+enum { NEIGHBOUR_IMAGES = 27 };
+
 /** Candidates of a cluster in one run of sorted particles: the couples base + offset[k]. */
 struct neighbour_segment {
-    uint32_t base, count;
-    size_t offset;   /**< of its first entry in the chunk's offsets */
-    double shift[3]; /**< periodic image: add to the candidates' coordinates */
+    uint32_t base, offset; /**< offset: of its first entry in the chunk's offsets */
+    uint16_t count;
+    uint8_t image; /**< periodic image: the list's shift is added to the candidates' coordinates */
 };
 
 /** Up to NEIGHBOUR_LANES consecutive particles of a row, close to each other, that share one candidate list:
@@ -41,6 +43,7 @@ struct neighbour_list {
     size_t n_clusters, cluster_capacity;
     struct neighbour_cluster *clusters;
     size_t n_slots;
+    double shift[NEIGHBOUR_IMAGES][3];
     double radius, length; /**< of the pairs; of the domain along x where that is periodic, else 0 */
     bool fresh; /**< the particles are where they were when the list was made: sweeps may shorten it */
     uint32_t *cluster_of; /**< of each particle */

@@ -205,12 +205,12 @@ SWEEP_INLINE void sweep_meet(const struct sweep *sweep, vplace lanes[SWEEP_PARTS
         near[k] = any[k] != 0;
 }
 
-SWEEP_INLINE void sweep_image(vplace lanes[SWEEP_PARTS][3], vplace own[3][SWEEP_PARTS],
-                              const struct neighbour_segment *segment, double units, int dim)
+SWEEP_INLINE void sweep_image(vplace lanes[SWEEP_PARTS][3], vplace own[3][SWEEP_PARTS], const double shift[3],
+                              double units, int dim)
 {
     for (int part = 0; part < SWEEP_PARTS; ++part)
         for (int k = 0; k < dim; ++k)
-            lanes[part][k] = own[k][part] - sweep_place(segment->shift[k], units);
+            lanes[part][k] = own[k][part] - sweep_place(shift[k], units);
 }
 
 /** All candidates of a cluster; @p sums: SWEEP_PARTS objects of @p size bytes. Notes which couples are within
@@ -229,7 +229,7 @@ SWEEP_INLINE void sweep_cluster(const struct sweep *sweep, const struct neighbou
         uint8_t *to = chunk->near + segment->offset / 8;
         unsigned bit = 1u << segment->offset % 8, bits = *to & (bit - 1);
         uint32_t kept = 0;
-        sweep_image(lanes, own, segment, sweep->units, dim);
+        sweep_image(lanes, own, sweep->list->shift[segment->image], sweep->units, dim);
         for (uint32_t c = 0; c < segment->count; ++c) {
             unsigned near[2];
             sweep_meet(sweep, lanes, (size_t)segment->base + offsets[c], dim, pair, sums, size, limit2, near);
@@ -250,7 +250,7 @@ SWEEP_INLINE void sweep_cluster(const struct sweep *sweep, const struct neighbou
         if (bit > 1) /* else this byte may be the next cluster's, and another thread's */
             *to = (uint8_t)bits;
         if (fresh)
-            segment->count = kept;
+            segment->count = (uint16_t)kept;
     }
 }
 
@@ -264,7 +264,7 @@ SWEEP_INLINE void sweep_near(const struct sweep *sweep, const struct neighbour_c
     sweep_lane_places(own, sweep, cluster, dim);
     for (uint32_t s = 0; s < cluster->n_segments; ++s) {
         const struct neighbour_segment *segment = &chunk->segments[cluster->segment + s];
-        sweep_image(lanes, own, segment, sweep->units, dim);
+        sweep_image(lanes, own, sweep->list->shift[segment->image], sweep->units, dim);
         for (uint32_t done = 0; done < segment->count; done += PIECE) {
             const uint32_t count = segment->count - done < PIECE ? segment->count - done : PIECE;
             const size_t first = segment->offset + done;

@@ -62,7 +62,7 @@ static void test_resize(void **state)
     const struct field *x = field_find(&block->fields, "Position");
     double places[150];
     for (int i = 0; i < 150; ++i)
-        places[i] = 2.385 * i;
+        places[i] = i % 3 < 2 ? 2.385 * i : 0.0;
     field_write(&block->fields, x, places);
     assert_true(block->x[1][49] == places[148]);
     assert_int_equal(block->fields.resize((void *)block->fields.owner, 1), 0);

@@ -14,7 +14,7 @@ checked=0 wrong=0
 for file in $(find "$source/src" -name '*.c' | sort); do
     checked=$((checked + 1))
     $compiler -std=gnu11 -fsyntax-only -fopenmp -Wall -Wextra -Wno-missing-field-initializers -D_GNU_SOURCE -DPACKAGE_VERSION='"0"' \
-        -DPACKAGE_NAME='"skerry"' -DSWEEP_ISA=baseline -DSWEEP_REAL=float -DSWEEP_PRECISION=mixed \
+        -DPACKAGE_NAME='"skerry"' -DSWEEP_ISA=baseline -DSWEEP_MANTISSA=24 -DSWEEP_PRECISION=mixed \
         -I"$source/src" -I. -idirafter /usr/include/libxml2 -idirafter /usr/include/hdf5/serial -idirafter /usr/include \
         -idirafter "/usr/include/$(gcc -print-multiarch 2>/dev/null)" "$file" || wrong=$((wrong + 1))
 done
