@@ -10,6 +10,12 @@
 #include <suitesparse/cholmod.h>
 #include <zlib.h>
 
+#ifdef __has_feature // clang
+#define SANITIZED __has_feature(address_sanitizer)
+#else
+#define SANITIZED 0
+#endif
+
 void version_print(FILE *stream)
 {
     muParserHandle_t parser = mupCreate(muBASETYPE_FLOAT);
@@ -19,6 +25,9 @@ void version_print(FILE *stream)
     fprintf(stream, "optimised       yes\n");
 #else
     fprintf(stream, "optimised       no\n");
+#endif
+#if defined(__SANITIZE_ADDRESS__) || SANITIZED
+    fprintf(stream, "sanitizers      yes\n");
 #endif
     fprintf(stream, "OpenMP          %d\n", _OPENMP);
     fprintf(stream, "CHOLMOD         %d.%d.%d\n", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION,

@@ -21,3 +21,8 @@ TESTS += tests/system/test_resume.sh
 dist_check_SCRIPTS += tests/system/test_faults.sh
 EXTRA_DIST += tests/system/test_faults.py
 TESTS += tests/system/test_faults.sh
+
+# Numbers of threads.
+dist_check_SCRIPTS += tests/system/test_threads.sh
+EXTRA_DIST += tests/system/test_threads.py
+TESTS += tests/system/test_threads.sh

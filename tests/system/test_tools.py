@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests of the modules that the tools share: signals and files."""
+"""Tests of what the tools share and of their figures."""
 
 import array
 import importlib.util
@@ -192,10 +192,95 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(bench.target_of("fsi2-coupled", {"fsi2-rigid": 10e6}), 8e6)
 
     def test_cost_of_a_frame(self):
-        rows = [{"name": "fsi2-rigid", "threads": 2, "steps": 300, "wall_s": 6.0},
-                {"name": "fsi2-output", "threads": 2, "steps": 300, "wall_s": 6.4}]
+        rows = [{"name": "fsi2-rigid", "threads": 2, "steps": 300, "wall_s": 6.0, "phases_s": {"output": 0.1}},
+                {"name": "fsi2-output", "threads": 2, "steps": 300, "wall_s": 6.5, "phases_s": {"output": 0.5}}]
         self.assertAlmostEqual(bench.frame_cost(rows, 2), 5.0)
         self.assertIsNone(bench.frame_cost(rows, 1))
+
+
+PROGRAM = """#!/usr/bin/env python3
+import json, os, sys
+if sys.argv[1] == "--version":
+    print("skerry 0\\n%s")
+elif sys.argv[1] != "run":
+    print(json.dumps({"name": sys.argv[1], "dim": 2, "particles": 1000, "threads": int(sys.argv[3]),
+                      "updates_per_s": 5e7, "neighbours": 20}))
+else:
+    words = [word for word in sys.argv[3:] if word not in ("--force", "-q")]
+    option = dict(zip(words[0::2], words[1::2]))
+    os.makedirs(option["-o"])
+    steps, n = int(option["--steps"]), 1000
+    wall = 0.5 + steps * n / %g
+    phases = {"output": 0.5, "fluid": 0.75 * (wall - 0.5), "walls": 0.25 * (wall - 0.5)}
+    with open(os.path.join(option["-o"], "summary.json"), "w") as stream:
+        json.dump({"dim": 2, "particles": n, "steps": steps, "wall_s": wall, "updates_per_s": steps * n / wall,
+                   "phases_s": phases, "iterations_mean": 0.0}, stream)
+"""
+
+
+class Runs(unittest.TestCase):
+    """The bench, with programs whose speed is known."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.bench = bench.Bench(self.folder.name)
+
+    def program(self, name, rate, said="optimised       yes"):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(PROGRAM % (said, rate))
+        os.chmod(path, 0o755)
+        return path
+
+    def test_rate_is_that_of_the_steps(self):
+        row = self.bench.row(self.program("a", 8e6), "box-2d", 2)
+        self.assertAlmostEqual(row["updates_per_s"] / 8e6, 1.0, 9)
+        self.assertAlmostEqual(row["phases_s"]["walls"] / row["wall_s"], 0.25)
+        self.assertAlmostEqual(row["phases_s"]["output"], 0.0)
+        self.assertAlmostEqual(row["ns_per_pair"], 1e9 / 8e6 / 27)
+        rates = {}
+        bench.row_judge(row, rates)
+        self.assertAlmostEqual(row["ratio"], 8 / 12)
+        self.assertLessEqual(len(bench.line_of(row)), 120)
+        self.assertLessEqual(len(bench.HEADING), 120)
+        row["threads"] = 1
+        bench.row_judge(row, rates)
+        self.assertIsNone(row["ratio"])
+
+    def test_passes(self):
+        row = self.bench.pass_row(self.program("a", 8e6), "delta-2d", 2)
+        bench.row_judge(row, {})
+        self.assertAlmostEqual(row["ratio"], 2.0)
+        self.assertAlmostEqual(row["ns_per_pair"], 1.0)
+        self.assertLessEqual(len(bench.line_of(row)), 120)
+
+    def test_comparison(self):
+        new, old = self.program("a", 12e6), self.program("b", 10e6)
+        quotients, best, other = bench.compare_run(self.bench, new, old, "box-2d", 1, 2)
+        self.assertEqual(len(quotients), 2)
+        for quotient in quotients:
+            self.assertAlmostEqual(quotient, 1.2)
+        self.assertAlmostEqual(best / other, 1.2)
+
+    def test_what_means_nothing_is_refused(self):
+        bench.program_check(self.program("a", 1e6))
+        for said in ("optimised       no", "optimised       yes\\nsanitizers      yes"):
+            with self.assertRaises(bench.Wrong):
+                bench.program_check(self.program("b", 1e6, said))
+        for flags, good in (("-O3 -ffast-math", True), ("-O0 -g", False), ("-O3 -O1", False)):
+            with open(os.path.join(self.folder.name, "config.status"), "w", encoding="utf-8") as stream:
+                stream.write('S["OPTIMIZE_CFLAGS"]="-O3"\nS["CFLAGS"]="-g"\nS["SWEEP_CFLAGS"]="%s"\n' % flags)
+            if good:
+                self.assertEqual(bench.flags_check(self.program("c", 1e6)), ("-O3 -g", flags))
+            else:
+                with self.assertRaises(bench.Wrong):
+                    bench.flags_check(self.program("c", 1e6))
+        failing = self.program("d", 1e6)
+        with open(failing, "w", encoding="utf-8") as stream:
+            stream.write("#!/bin/sh\nexit 70\n")
+        with self.assertRaises(bench.Wrong):
+            self.bench.row(failing, "box-2d", 1)
 
 
 if __name__ == "__main__":
