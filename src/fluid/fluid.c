@@ -492,7 +492,8 @@ size_t fluid_bytes(const struct fluid *fluid)
     bytes += fluid->type->bytes(fluid);
     return bytes + fluid->order_capacity * sizeof *fluid->order + fluid->dead_capacity +
            fluid->grid.start_capacity * sizeof *fluid->grid.start +
-           fluid->grid.cell_of_capacity * sizeof *fluid->grid.cell_of;
+           fluid->grid.cell_of_capacity * sizeof *fluid->grid.cell_of +
+           fluid->grid.count_capacity * sizeof *fluid->grid.count;
 }
 
 double fluid_probe(const struct fluid *fluid, const double x[3], double *pressure, double velocity[3],

@@ -8,6 +8,20 @@
 #include <math.h>
 #include <string.h>
 
+/** Wrap into a box that is periodic in direction @p k. */
+static void along_wrap(struct particles *block, int k, double low, double high)
+{
+    const double length = high - low;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < block->n; ++i) {
+        double x = block->x[k][i];
+        if (x >= low && x < high)
+            continue;
+        x -= length * floor((x - low) / length);
+        block->x[k][i] = x < high ? x : low;
+    }
+}
+
 /** Wrap into periodic boxes; deal with particles that left the domain elsewhere. */
 static int block_wrap(struct fluid *fluid)
 {
@@ -15,16 +29,15 @@ static int block_wrap(struct fluid *fluid)
     struct particles *block = fluid->block;
     long removed = 0;
     for (int k = 0; k < fluid->model->dim; ++k) {
-        double low = domain->lower[k], high = domain->upper[k], length = high - low;
+        double low = domain->lower[k], high = domain->upper[k];
+        if (domain->periodic[k]) {
+            along_wrap(block, k, low, high);
+            continue;
+        }
         for (size_t i = 0; i < block->n; ++i) {
             double x = block->x[k][i];
             if (x >= low && x < high)
                 continue;
-            if (domain->periodic[k]) {
-                x -= length * floor((x - low) / length);
-                block->x[k][i] = x < high ? x : low;
-                continue;
-            }
             CHECK(domain->outside == OUTSIDE_REMOVE && block->kind[i] == PARTICLE_FLUID, STATUS_NUMERICAL,
                   "particle %lld left the domain at (%g, %g, %g) at t = %g s: is a wall open there, or the "
                   "step too "

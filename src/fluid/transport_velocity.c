@@ -19,7 +19,6 @@ struct transport_velocity {
     double *w[3];            /**< transport minus momentum velocity of this step */
     double *kernel_sum;      /**< sum W of this evaluation over the fluid */
     double *rigid_sum;       /**< the same with the walls that no solid moves */
-    double *whole_sum;       /**< the same with all walls */
     void *places, *records;  /**< workspace of the sweeps */
     size_t places_capacity, records_capacity;
 };
@@ -43,8 +42,7 @@ static int transport_velocity_create(struct fluid *fluid)
                              tv->a_background));
     CALL(particles_add_field(block, "TransportShift", "m/s", 3, FIELD_SORTED, tv->w));
     CALL(particles_add_field(block, "KernelSum", "m^-dim", 1, 0, &tv->kernel_sum));
-    CALL(particles_add_field(block, "RigidKernelSum", "m^-dim", 1, 0, &tv->rigid_sum));
-    return particles_add_field(block, "WholeKernelSum", "m^-dim", 1, 0, &tv->whole_sum);
+    return particles_add_field(block, "RigidKernelSum", "m^-dim", 1, 0, &tv->rigid_sum);
 }
 
 static void transport_velocity_destroy(struct fluid *fluid)
@@ -182,8 +180,26 @@ static inline void state_set(struct fluid *fluid, size_t i, double kernel_sum)
 /** Add the wall part of the kernel sums of boundary @p b to @p sums. */
 static void wall_sums_add(const struct boundary *b, double *sums)
 {
-    for (size_t k = 0; k < b->n_near; ++k)
+#pragma omp parallel for schedule(static)
+    for (size_t k = 0; k < b->n_near; ++k) /* each particle is named once */
         sums[b->near[k]] += b->kernel_sum[k];
+}
+
+/** Density and pressure of the particles near walls that solids move: what the other walls give is kept, so
+ * that only this is repeated while such a wall moves. */
+static void coupled_pressure(struct fluid *fluid)
+{
+    const struct transport_velocity *tv = fluid->data;
+    double *sums = fluid->block->scratch;
+    for (size_t b = 0; b < fluid->n_boundaries; ++b)
+        for (size_t k = 0; k < fluid->boundaries[b]->n_near && fluid->boundaries[b]->coupled; ++k)
+            sums[fluid->boundaries[b]->near[k]] = tv->rigid_sum[fluid->boundaries[b]->near[k]];
+    for (size_t b = 0; b < fluid->n_boundaries; ++b)
+        if (fluid->boundaries[b]->coupled)
+            wall_sums_add(fluid->boundaries[b], sums);
+    for (size_t b = 0; b < fluid->n_boundaries; ++b)
+        for (size_t k = 0; k < fluid->boundaries[b]->n_near && fluid->boundaries[b]->coupled; ++k)
+            state_set(fluid, fluid->boundaries[b]->near[k], sums[fluid->boundaries[b]->near[k]]);
 }
 
 static void transport_velocity_pressure(struct fluid *fluid, bool coupled_only)
@@ -191,27 +207,17 @@ static void transport_velocity_pressure(struct fluid *fluid, bool coupled_only)
     struct transport_velocity *tv = fluid->data;
     const size_t n = fluid->block->n;
     if (!coupled_only) {
-        memcpy(tv->rigid_sum, tv->kernel_sum, n * sizeof(double));
+#pragma omp parallel for schedule(static)
+        for (size_t i = 0; i < n; ++i)
+            tv->rigid_sum[i] = tv->kernel_sum[i];
         for (size_t b = 0; b < fluid->n_boundaries; ++b)
             if (!fluid->boundaries[b]->coupled)
                 wall_sums_add(fluid->boundaries[b], tv->rigid_sum);
-        memcpy(tv->whole_sum, tv->rigid_sum, n * sizeof(double));
-    }
-    for (size_t b = 0; b < fluid->n_boundaries; ++b)
-        for (size_t k = 0; k < fluid->boundaries[b]->n_near && fluid->boundaries[b]->coupled; ++k)
-            tv->whole_sum[fluid->boundaries[b]->near[k]] = tv->rigid_sum[fluid->boundaries[b]->near[k]];
-    for (size_t b = 0; b < fluid->n_boundaries; ++b)
-        if (fluid->boundaries[b]->coupled)
-            wall_sums_add(fluid->boundaries[b], tv->whole_sum);
-    if (!coupled_only) {
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < n; ++i)
-            state_set(fluid, i, tv->whole_sum[i]);
-        return;
+            state_set(fluid, i, tv->rigid_sum[i]);
     }
-    for (size_t b = 0; b < fluid->n_boundaries; ++b)
-        for (size_t k = 0; k < fluid->boundaries[b]->n_near && fluid->boundaries[b]->coupled; ++k)
-            state_set(fluid, fluid->boundaries[b]->near[k], tv->whole_sum[fluid->boundaries[b]->near[k]]);
+    coupled_pressure(fluid);
 }
 
 static void transport_velocity_wall_pair(const struct fluid *fluid, size_t i,
@@ -263,6 +269,7 @@ static int transport_velocity_finish(struct fluid *fluid, double dt)
     for (size_t b = 0; b < fluid->n_boundaries; ++b) {
         const struct boundary *boundary = fluid->boundaries[b];
         const struct fluid_wall_forces *forces = &fluid->wall_forces[b];
+#pragma omp parallel for schedule(static)
         for (size_t k = 0; k < boundary->n_near; ++k)
             for (int d = 0; d < dim; ++d) {
                 tv->a[d][boundary->near[k]] += forces->a[d][k];

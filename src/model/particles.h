@@ -28,7 +28,7 @@ struct particles {
     size_t fields_capacity;
     void ***owners; /**< addresses of the pointers to the arrays, refreshed when arrays move */
     void *zeros;    /**< components beyond the dimension */
-    void *scratch;  /**< room for one array of 8-byte items: the sort needs no other memory */
+    void *scratch;  /**< room for one array of 8-byte items, for whoever is at work: the sort, mostly */
 };
 
 /** An empty block with room for @p capacity particles. */

@@ -149,13 +149,15 @@ static int outflow_move(struct open_boundary *open, const struct fluid_view *vie
     const size_t n = particles->n;
     const struct model_open *definition = open->definition;
     CALL(zone_release(open, view, particles));
+    int64_t removed = 0;
+#pragma omp parallel for schedule(static) reduction(+ : removed)
     for (size_t i = 0; i < n; ++i) {
         double x[3] = {particles->x[0][i], particles->x[1][i], particles->x[2][i]};
         double inside = zone_inside(definition, x);
         if (particles->kind[i] == PARTICLE_OUTFLOW && particles->opening[i] == open->index) {
             if (inside < -open->depth) {
                 dead[i] = 1;
-                ++open->removed;
+                ++removed;
             }
         } else if (particles->kind[i] == PARTICLE_FLUID && inside < 0.0 && inside > -open->depth &&
                    zone_across(definition, view->dim, x, 0.5 * view->spacing)) {
@@ -163,6 +165,7 @@ static int outflow_move(struct open_boundary *open, const struct fluid_view *vie
             particles->opening[i] = (uint8_t)open->index;
         }
     }
+    open->removed += removed;
     return 0;
 }
 

@@ -3,8 +3,10 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 
 #include <math.h>
+#include <string.h>
 
 int cell_grid_create(struct cell_grid *grid, int dim, const double lower[3], const double upper[3],
                      const bool periodic[3], double reach, double width, double fine)
@@ -37,6 +39,7 @@ void cell_grid_reset(struct cell_grid *grid)
 {
     memory_free(grid->start);
     memory_free(grid->cell_of);
+    memory_free(grid->count);
     *grid = (struct cell_grid){0};
 }
 
@@ -46,29 +49,48 @@ static int cell_clamped(const struct cell_grid *grid, int k, double x)
     return c < 0.0 ? 0 : c >= grid->cells[k] ? grid->cells[k] - 1 : (int)c;
 }
 
-int cell_grid_sort(struct cell_grid *grid, const double *const x[3], size_t n, uint32_t *order)
+/** The cells of points first to last - 1, and how many are in each: @p count. */
+static void part_count(struct cell_grid *grid, const double *const x[3], size_t first, size_t last,
+                       uint32_t *count)
 {
-    CHECK(n < UINT32_MAX, STATUS_MEMORY, "%zu particles are more than a search grid can number", n);
-    CALL(memory_grow((void **)&grid->cell_of, &grid->cell_of_capacity, n, sizeof *grid->cell_of));
-    size_t cells = (size_t)grid->cells[0] * (size_t)grid->cells[1] * (size_t)grid->cells[2];
-    for (size_t c = 0; c <= cells; ++c)
-        grid->start[c] = 0;
-#pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; ++i) {
+    for (size_t i = first; i < last; ++i) {
         size_t c = 0;
         for (int k = grid->dim - 1; k >= 0; --k)
             c = c * (size_t)grid->cells[k] + (size_t)cell_clamped(grid, k, x[k][i]);
         grid->cell_of[i] = (uint32_t)c;
+        ++count[c];
     }
-    for (size_t i = 0; i < n; ++i)
-        ++grid->start[grid->cell_of[i] + 1];
-    for (size_t c = 0; c < cells; ++c)
-        grid->start[c + 1] += grid->start[c];
-    for (size_t i = 0; i < n; ++i)
-        order[grid->start[grid->cell_of[i]]++] = (uint32_t)i;
-    for (size_t c = cells; c > 0; --c)
-        grid->start[c] = grid->start[c - 1];
-    grid->start[0] = 0;
+}
+
+int cell_grid_sort(struct cell_grid *grid, const double *const x[3], size_t n, uint32_t *order)
+{
+    CHECK(n < UINT32_MAX, STATUS_MEMORY, "%zu particles are more than a search grid can number", n);
+    const size_t cells = (size_t)grid->cells[0] * (size_t)grid->cells[1] * (size_t)grid->cells[2];
+    /* one part of the points per thread; few threads where counting them by cells would be the larger work */
+    const size_t most = 1 + 2 * n / (cells + 1), threads = (size_t)parallel_threads(),
+                 parts = threads < most ? threads : most;
+    CALL(memory_grow((void **)&grid->cell_of, &grid->cell_of_capacity, n, sizeof *grid->cell_of));
+    CALL(memory_grow((void **)&grid->count, &grid->count_capacity, parts * cells, sizeof *grid->count));
+#pragma omp parallel for schedule(static, 1)
+    for (size_t part = 0; part < parts; ++part) {
+        memset(grid->count + part * cells, 0, cells * sizeof *grid->count);
+        part_count(grid, x, n * part / parts, n * (part + 1) / parts, grid->count + part * cells);
+    }
+    /* from here on a count is where the next point of this part and cell goes */
+    uint32_t next = 0;
+    for (size_t c = 0; c < cells; ++c) {
+        grid->start[c] = next;
+        for (size_t part = 0; part < parts; ++part) {
+            const uint32_t here = grid->count[part * cells + c];
+            grid->count[part * cells + c] = next;
+            next += here;
+        }
+    }
+    grid->start[cells] = next;
+#pragma omp parallel for schedule(static, 1)
+    for (size_t part = 0; part < parts; ++part)
+        for (size_t i = n * part / parts; i < n * (part + 1) / parts; ++i)
+            order[grid->count[part * cells + grid->cell_of[i]]++] = (uint32_t)i;
     grid->moved = 0.0;
     return 0;
 }

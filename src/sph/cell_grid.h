@@ -18,9 +18,9 @@ struct cell_grid {
     int cells[3];
     uint32_t *start; /**< cells + 1 entries: first sorted point of each cell */
     size_t start_capacity;
-    double moved;      /**< how far any point may have moved since the grid was made, m */
-    uint32_t *cell_of; /**< workspace */
-    size_t cell_of_capacity;
+    double moved;              /**< how far any point may have moved since the grid was made, m */
+    uint32_t *cell_of, *count; /**< workspace: of each point; per part of the points and cell */
+    size_t cell_of_capacity, count_capacity;
 };
 
 /** A run of consecutive sorted points near a place; add @c shift to their coordinates (periodic images). */

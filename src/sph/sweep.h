@@ -31,7 +31,7 @@ enum {
 
 /** Places are kept in units of h/SWEEP_UNITS. In float the fifth power of the support must not overflow. */
 #if SWEEP_SINGLE
-typedef int32_t place;
+typedef uint32_t place;
 #define SWEEP_UNITS 2097152.0
 #else
 typedef double place;
@@ -175,7 +175,8 @@ SWEEP_INLINE vreal sweep_difference(vplace lanes, const place *candidates)
 {
     const vplace difference = lanes - sweep_spread_place(candidates);
 #if SWEEP_SINGLE
-    return __builtin_convertvector(difference, vreal);
+    typedef int32_t vsigned __attribute__((vector_size(SWEEP_BYTES)));
+    return __builtin_convertvector((vsigned)difference, vreal);
 #else
     return difference;
 #endif

@@ -503,15 +503,18 @@ static void fixed_particles_load(struct boundary *boundary, const struct fluid_v
 {
     struct fixed_particles *f = boundary->data;
     (void)view;
+#pragma omp parallel for schedule(static)
+    for (size_t wall = 0; wall < f->n; ++wall)
+        for (int d = 0; d < 3; ++d) {
+            double total = 0.0;
+            for (uint32_t c = f->back_start[wall]; c < f->back_start[wall + 1]; ++c)
+                total += f->pair_force[d][f->back[c]];
+            f->force[d][wall] = total;
+        }
     for (size_t wall = 0; wall < f->n; ++wall) {
-        double total[3] = {0};
-        for (uint32_t c = f->back_start[wall]; c < f->back_start[wall + 1]; ++c)
-            for (int d = 0; d < 3; ++d)
-                total[d] += f->pair_force[d][f->back[c]];
-        for (int d = 0; d < 3; ++d)
-            f->force[d][wall] = total[d];
         if (f->load_point[wall] < 0)
             continue;
+        const double total[3] = {f->force[0][wall], f->force[1][wall], f->force[2][wall]};
         struct surface *surface = boundary->surfaces[f->surface[wall]];
         const double *centre = surface->now.x[0];
         double arm[3];

@@ -51,10 +51,12 @@ static void test_sort(void **state)
                     assert_true(before < cell || (before == cell && order[i - 1] < order[i]));
                 }
             }
-            parallel_setup(3);
-            assert_int_equal(cell_grid_sort(&grid, x, points.n, other), 0);
-            parallel_setup(1);
-            assert_memory_equal(order, other, points.n * sizeof *order);
+            static const int threads[] = {2, 3, 7, 1};
+            for (int t = 0; t < 4; ++t) {
+                parallel_setup(threads[t]);
+                assert_int_equal(cell_grid_sort(&grid, x, points.n, other), 0);
+                assert_memory_equal(order, other, points.n * sizeof *order);
+            }
             cell_grid_reset(&grid);
         }
 }
