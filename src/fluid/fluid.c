@@ -488,7 +488,8 @@ size_t fluid_bytes(const struct fluid *fluid)
         const int components = field->components > fluid->model->dim ? fluid->model->dim : field->components;
         bytes += fluid->block->capacity * field_size(field->type) * (size_t)components;
     }
-    bytes += 2 * fluid->block->capacity * sizeof(double); /* zeros and room for sorting */
+    const size_t spare = fluid->model->dim < 3 ? 2 : 1; /* arrays of the block: room for sorting, zeros */
+    bytes += spare * fluid->block->capacity * sizeof(double);
     bytes += fluid->type->bytes(fluid);
     return bytes + fluid->order_capacity * sizeof *fluid->order + fluid->dead_capacity +
            fluid->grid.start_capacity * sizeof *fluid->grid.start +
