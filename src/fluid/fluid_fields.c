@@ -5,6 +5,7 @@
 #include "fluid/fluid_internal.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 static int smoothing_length_fill(const void *owner, const struct field *field, void *destination)
@@ -17,32 +18,43 @@ static int smoothing_length_fill(const void *owner, const struct field *field, v
     return 0;
 }
 
-/** Loop over the neighbours of particle @p i within the support: sum of V W, and curl of the velocity sum V
- * (u_j - u_i) x (-grad W). */
-static void particle_sums(const struct fluid *fluid, size_t i, double *support, double vorticity[3])
+/** What is summed over the neighbours of a particle within the support: V W, and for the curl of the velocity
+ * V (u_j - u_i) x (-grad W). */
+struct particle_sums {
+    double support, vorticity[3];
+};
+
+/** @p dim and @p curl are constants where this is called: only what is asked for is computed. */
+static inline __attribute__((always_inline)) struct particle_sums particle_sums(const struct fluid *fluid,
+                                                                                size_t i, int dim, bool curl)
 {
     const struct particles *b = fluid->block;
     const struct kernel *kernel = &fluid->view.kernel;
+    struct particle_sums sums = {0};
     struct cell_range ranges[CELL_GRID_RANGES];
-    double x[3] = {b->x[0][i], b->x[1][i], b->x[2][i]};
+    const double x[3] = {b->x[0][i], b->x[1][i], b->x[2][i]}, support2 = kernel->support * kernel->support;
     size_t n = cell_grid_ranges(&fluid->grid, x, kernel->support, ranges);
-    *support = vorticity[0] = vorticity[1] = vorticity[2] = 0.0;
     for (size_t r = 0; r < n; ++r)
         for (uint32_t j = ranges[r].begin; j < ranges[r].end; ++j) {
-            double d[3], u[3], r2 = 0.0;
-            for (int k = 0; k < 3; ++k) {
+            double d[3] = {0}, u[3] = {0}, r2 = 0.0;
+            for (int k = 0; k < dim; ++k) {
                 d[k] = x[k] - b->x[k][j] - ranges[r].shift[k];
-                u[k] = b->u[k][j] - b->u[k][i];
                 r2 += d[k] * d[k];
             }
-            if (r2 >= kernel->support * kernel->support)
+            if (r2 >= support2 || (curl && r2 == 0.0))
                 continue;
-            double distance = sqrt(r2), volume = b->m[j] / b->rho[j];
-            *support += volume * kernel_w(kernel, distance);
-            double f = j == i ? 0.0 : volume * kernel_dw(kernel, distance) / distance;
-            for (int k = 0; k < 3; ++k)
-                vorticity[k] -= f * (u[(k + 1) % 3] * d[(k + 2) % 3] - u[(k + 2) % 3] * d[(k + 1) % 3]);
+            const double distance = sqrt(r2);
+            if (!curl) {
+                sums.support += b->m[j] / b->rho[j] * kernel_w(kernel, distance);
+                continue;
+            }
+            const double f = b->m[j] * kernel_dw(kernel, distance) / (b->rho[j] * distance);
+            for (int k = 0; k < dim; ++k)
+                u[k] = b->u[k][j] - b->u[k][i];
+            for (int k = dim == 3 ? 0 : 2; k < 3; ++k)
+                sums.vorticity[k] -= f * (u[(k + 1) % 3] * d[(k + 2) % 3] - u[(k + 2) % 3] * d[(k + 1) % 3]);
         }
+    return sums;
 }
 
 static int support_fill(const void *owner, const struct field *field, void *destination)
@@ -52,8 +64,9 @@ static int support_fill(const void *owner, const struct field *field, void *dest
     (void)field;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < fluid->block->n; ++i) {
-        double vorticity[3];
-        particle_sums(fluid, i, &support[i], vorticity);
+        const struct particle_sums sums =
+            fluid->view.dim == 3 ? particle_sums(fluid, i, 3, false) : particle_sums(fluid, i, 2, false);
+        support[i] = sums.support;
     }
     return 0;
 }
@@ -65,8 +78,9 @@ static int vorticity_fill(const void *owner, const struct field *field, void *de
     (void)field;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < fluid->block->n; ++i) {
-        double support;
-        particle_sums(fluid, i, &support, vorticity[i]);
+        const struct particle_sums sums =
+            fluid->view.dim == 3 ? particle_sums(fluid, i, 3, true) : particle_sums(fluid, i, 2, true);
+        memcpy(vorticity[i], sums.vorticity, sizeof sums.vorticity);
     }
     return 0;
 }

@@ -8,12 +8,22 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FRAME_ARRAYS = 32, FRAME_BUFFERS = 2 * FRAME_ARRAYS + 8 };
+enum { FRAME_ARRAYS = 32, FRAME_VALUES = 2 * FRAME_ARRAYS + 1, FRAME_BUFFERS = FRAME_VALUES + 8 };
+
+/** Where the numbers of an array lie: they are gathered, and narrowed, only as they are written. */
+struct frame_values {
+    const void *from[3]; /**< one array per component, or interleaved in the first */
+    enum field_type type;
+    size_t components;
+    bool separate, float64;
+};
 
 /** The arrays of one file and the memory behind them. */
 struct frame_buffers {
     void *memory[FRAME_BUFFERS];
     size_t n;
+    struct frame_values values[FRAME_VALUES];
+    size_t n_values;
 };
 
 static void *buffer_create(struct frame_buffers *buffers, size_t count, size_t size)
@@ -46,26 +56,58 @@ static enum vtu_type vtu_type_of(enum field_type type, bool float64)
     }
 }
 
-/** Read a field, narrowed to float unless @p float64 asks for all digits. */
+static void number_read(const struct frame_values *values, const void *from, size_t index, size_t i, void *to)
+{
+    const size_t size = field_size(values->type);
+    if (values->type != FIELD_DOUBLE)
+        memcpy((char *)to + i * size, (const char *)from + index * size, size);
+    else if (values->float64)
+        ((double *)to)[i] = ((const double *)from)[index];
+    else
+        ((float *)to)[i] = (float)((const double *)from)[index];
+}
+
+static void values_read(const void *data, size_t first, size_t n, void *to)
+{
+    const struct frame_values *values = data;
+    if (!values->separate) {
+        for (size_t i = 0; i < n; ++i)
+            number_read(values, values->from[0], first + i, i, to);
+        return;
+    }
+    size_t row = first / values->components, c = first % values->components;
+    for (size_t i = 0; i < n; ++i) {
+        number_read(values, values->from[c], row, i, to);
+        if (++c == values->components) {
+            c = 0;
+            ++row;
+        }
+    }
+}
+
+/** Declare a field, narrowed to float unless @p float64 asks for all digits. */
 static int field_take(struct frame_buffers *buffers, const struct field_group *group,
                       const struct field *field, bool float64, struct vtu_array *array)
 {
-    size_t n = *group->count * (size_t)field->components;
-    void *values = buffer_create(buffers, n, field_size(field->type));
-    CHECK_MEMORY(values);
-    CALL(field_read(group, field, values));
-    if (field->type == FIELD_DOUBLE && !float64) {
-        const double *from = values;
-        float *to = values; /* narrowing in place: each float lies before the doubles still to be read */
-        for (size_t i = 0; i < n; ++i) {
-            float narrow = (float)from[i];
-            memcpy(&to[i], &narrow, sizeof narrow);
-        }
+    struct frame_values *values = &buffers->values[buffers->n_values++];
+    const size_t components = (size_t)field->components;
+    *values = (struct frame_values){.from = {field->data[0], field->data[1], field->data[2]},
+                                    .type = field->type,
+                                    .components = components,
+                                    .separate = components > 1 && field->data[1],
+                                    .float64 = float64};
+    if (!field->data[0] && field->fill) {
+        void *filled = buffer_create(buffers, *group->count * components, field_size(field->type));
+        CHECK_MEMORY(filled);
+        CALL(field_read(group, field, filled));
+        values->from[0] = filled;
+        values->separate = false;
     }
     snprintf(array->name, sizeof array->name, "%s", field->name);
     array->components = field->components;
     array->type = vtu_type_of(field->type, float64);
     array->data = values;
+    array->read = values_read;
     return 0;
 }
 
@@ -91,23 +133,20 @@ static int group_take(struct frame_buffers *buffers, const struct frame_writer *
     return 0;
 }
 
-static int points_take(struct frame_buffers *buffers, const struct frame_part *part, size_t n, bool float64,
-                       struct vtu_grid *grid)
+static void points_take(struct frame_buffers *buffers, const struct frame_part *part, size_t n, bool float64,
+                        struct vtu_grid *grid)
 {
-    void *points = buffer_create(buffers, 3 * n, float64 ? sizeof(double) : sizeof(float));
-    CHECK_MEMORY(points);
-    for (size_t i = 0; i < n; ++i)
-        for (size_t k = 0; k < 3; ++k) {
-            double x = part->x[0] ? part->x[k][i] : part->places[i][k];
-            if (float64)
-                ((double *)points)[3 * i + k] = x;
-            else
-                ((float *)points)[3 * i + k] = (float)x;
-        }
-    grid->points = points;
+    struct frame_values *values = &buffers->values[buffers->n_values++];
+    *values = (struct frame_values){.type = FIELD_DOUBLE, .components = 3, .float64 = float64};
+    values->separate = part->x[0];
+    if (values->separate)
+        memcpy(values->from, part->x, sizeof values->from);
+    else
+        values->from[0] = part->places;
+    grid->points = values;
+    grid->points_read = values_read;
     grid->points_type = float64 ? VTU_FLOAT64 : VTU_FLOAT32;
     grid->n_points = n;
-    return 0;
 }
 
 static const uint8_t facet_vtk[5] = {0, 0, 3, 5, 9}; /* VTK_LINE, VTK_TRIANGLE, VTK_QUAD by number of nodes */
@@ -155,7 +194,7 @@ static int part_write(const char *path, const struct frame_writer *writer, const
                             .vectors = part->vectors};
     CALL(group_take(buffers, writer, part->points, float64, points, &grid.n_point_arrays));
     CALL(group_take(buffers, writer, part->cells, float64, cells, &grid.n_cell_arrays));
-    CALL(points_take(buffers, part, *part->points->count, float64, &grid));
+    points_take(buffers, part, *part->points->count, float64, &grid);
     CALL(cells_take(buffers, part, &grid));
     return vtu_write(path, &grid);
 }
@@ -163,7 +202,7 @@ static int part_write(const char *path, const struct frame_writer *writer, const
 int frame_write_part(const struct frame_writer *writer, const struct frame_part *part, double t,
                      int64_t cycle)
 {
-    struct frame_buffers buffers = {.n = 0};
+    struct frame_buffers buffers = {0};
     char file[192];
     snprintf(file, sizeof file, "fields/%s_%s.vtu", part->name, writer->label);
     char *path = memory_print("%s/%s", writer->folder, file);
@@ -176,7 +215,7 @@ int frame_write_part(const struct frame_writer *writer, const struct frame_part 
 
 int frame_write_single(const char *path, const struct frame_part *part, double t, int64_t cycle)
 {
-    struct frame_buffers buffers = {.n = 0};
+    struct frame_buffers buffers = {0};
     int status = part_write(path, NULL, part, true, t, cycle, &buffers);
     buffers_reset(&buffers);
     return status;

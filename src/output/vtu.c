@@ -8,132 +8,189 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "output/vtu_types.h"
 #include "output/xml.h"
 
 #include <inttypes.h>
+#include <omp.h>
 #include <stdbool.h>
 #include <string.h>
 #include <zlib.h>
 
 enum {
-    BATCH = 32,       // blocks compressed side by side; also bounds the memory: 32 x 512 KiB
-    OFFSET_WIDTH = 24 // room in the head for an offset that is known after compression
+    BATCH = 64,         // blocks compressed side by side; also bounds the memory: 64 x 128 KiB
+    SAMPLE = 32 * 1024, // bytes that stand for an array where ways to compress are compared
+    OFFSET_WIDTH = 24   // room in the head for an offset that is known after compression
 };
 
-enum source { SOURCE_MEMORY, SOURCE_INDEX, SOURCE_NEXT_INDEX, SOURCE_VERTEX };
-
-// One array of the file; vertex cells are generated block by block instead of being kept.
+// One array of the file; what has a function to make it is made block by block instead of being kept.
 struct item {
     const char *name;
     int components;
     enum vtu_type type;
-    enum source source;
-    const char *data;
-    size_t bytes;
-    long place;      // in the file, of the room for its offset
-    uint64_t offset; // of its data
+    const void *data;
+    vtu_source *read;
+    size_t bytes, blocks;
+    int level, strategy;    // of zlib
+    uint64_t offset;        // of its data
+    uint64_t *head;         // number of blocks, sizes, compressed sizes
+    long place, head_place; // in the file, of the room for its offset and of its head
+};
+
+// A block of the file in the making.
+struct job {
+    const struct item *item;
+    size_t block;
+    char *packed;
+    uint64_t size; // of packed, when done
+    bool done;
 };
 
 struct writer {
     FILE *stream;
-    char *raw, *packed; // BATCH blocks each; raw only for generated arrays
-    size_t bound;       // largest size of a compressed block
+    struct item *items;
+    size_t n_items, item, block; // the next one to be compressed
+    char *raw, *packed;          // one block per thread, only for arrays that are made; BATCH blocks
+    size_t size, bound;          // largest size of a block, of a compressed block
+    struct job jobs[BATCH];
+    size_t n_jobs, n_written;
+    struct item *begun; // the first one whose head is not in the file yet
     uint64_t written;   // bytes of data so far
 };
 
-// Compression. Of level 1's saving on particle data (smooth fields with noise, 2-D) Z_RLE alone keeps 80 %
-// at 1.75 times the speed: it finds no repetition of multi-byte words. Integers and constant blocks therefore
-// go through level 1, which is as fast there, and the rest through Z_RLE: 91 % at 1.8 times the speed.
-static int strategy_choose(const struct item *item, const char *raw, size_t n)
+static size_t block_size(const struct item *item, size_t block)
 {
-    size_t size = vtu_type_size(item->type);
-    bool real = item->type == VTU_FLOAT32 || item->type == VTU_FLOAT64;
-    bool constant = n > size && memcmp(raw, raw + size, n - size) == 0;
-    return real && !constant ? Z_RLE : Z_DEFAULT_STRATEGY;
+    size_t left = item->bytes - block * VTU_BLOCK;
+    return left < VTU_BLOCK ? left : VTU_BLOCK;
 }
 
-static bool block_compress(const struct item *item, const char *raw, size_t n, char *packed, size_t bound,
-                           uint64_t *size)
+// Bytes [start, start + n) of an array; @p raw is room for them where they have to be made.
+static const char *bytes_of(const struct item *item, size_t start, size_t n, char *raw)
+{
+    const size_t size = vtu_type_size(item->type);
+    if (!item->read)
+        return (const char *)item->data + start;
+    item->read(item->data, start / size, n / size, raw);
+    return raw;
+}
+
+// The size of @p raw compressed, or 0 (out of memory).
+static uint64_t compress_bytes(int level, int strategy, const char *raw, size_t n, char *packed, size_t bound)
 {
     z_stream stream;
     memset(&stream, 0, sizeof stream);
-    if (deflateInit2(&stream, 1, Z_DEFLATED, MAX_WBITS, 8, strategy_choose(item, raw, n)) != Z_OK)
-        return false;
+    if (deflateInit2(&stream, level, Z_DEFLATED, MAX_WBITS, 8, strategy) != Z_OK)
+        return 0;
     stream.next_in = (Bytef *)raw;
     stream.avail_in = (uInt)n;
     stream.next_out = (Bytef *)packed;
     stream.avail_out = (uInt)bound;
     bool good = deflate(&stream, Z_FINISH) == Z_STREAM_END;
-    *size = stream.total_out;
     deflateEnd(&stream);
-    return good;
+    return good ? stream.total_out : 0;
 }
 
-static const char *block_source(const struct item *item, size_t block, size_t n, char *raw)
+// Level 1 looks for words that come again. Where particles lie in order it finds them, and takes no longer
+// than the other ways; where they do not, it looks in vain, at half the speed of Z_RLE, which codes bytes by
+// how often they come. A sample from the middle shows which it is. Sizes decide, never times: the same array
+// always gives the same bytes. Returns false: out of memory.
+static bool strategy_choose(struct item *item, char *raw, char *packed, size_t bound)
 {
-    size_t start = block * VTU_BLOCK;
-    if (item->source == SOURCE_MEMORY)
-        return item->data + start;
-    if (item->source == SOURCE_VERTEX) {
-        memset(raw, 1, n); // VTK_VERTEX
-        return raw;
-    }
-    int64_t first = (int64_t)(start / sizeof(int64_t)) + (item->source == SOURCE_NEXT_INDEX);
-    for (size_t i = 0; i < n / sizeof(int64_t); ++i) {
-        int64_t value = first + (int64_t)i;
-        memcpy(raw + i * sizeof value, &value, sizeof value);
-    }
-    return raw;
+    const size_t n = item->bytes < SAMPLE ? item->bytes : SAMPLE, tuple = 8 * 3;
+    const size_t start = (item->bytes - n) / 2 / tuple * tuple;
+    item->level = 1;
+    item->strategy = Z_DEFAULT_STRATEGY;
+    if (n == 0 || (item->type != VTU_FLOAT32 && item->type != VTU_FLOAT64))
+        return true;
+    const char *bytes = bytes_of(item, start, n, raw);
+    const uint64_t words = compress_bytes(1, Z_DEFAULT_STRATEGY, bytes, n, packed, bound);
+    const uint64_t runs = compress_bytes(1, Z_RLE, bytes, n, packed, bound);
+    if (4 * words > 3 * runs)
+        item->strategy = Z_RLE;
+    return words > 0 && runs > 0;
 }
 
-// Compress and write blocks [first, first + n); their sizes go to @p sizes.
-static int batch_write(struct writer *writer, const struct item *item, size_t first, size_t n,
-                       uint64_t *sizes)
+static int strategies_choose(struct writer *writer)
 {
     int failed = 0;
 #pragma omp parallel for schedule(dynamic, 1) reduction(max : failed)
-    for (size_t i = 0; i < n; ++i) {
-        size_t left = item->bytes - (first + i) * VTU_BLOCK, size = left < VTU_BLOCK ? left : VTU_BLOCK;
-        const char *raw =
-            block_source(item, first + i, size, writer->raw ? writer->raw + i * VTU_BLOCK : NULL);
-        if (!block_compress(item, raw, size, writer->packed + i * writer->bound, writer->bound, &sizes[i]))
+    for (size_t i = 0; i < writer->n_items; ++i) {
+        const size_t thread = (size_t)omp_get_thread_num();
+        if (!strategy_choose(&writer->items[i], writer->raw + thread * writer->size,
+                             writer->packed + thread * writer->bound, writer->bound))
             failed = 1;
     }
-    CHECK(!failed, STATUS_MEMORY, "out of memory while compressing array %s", item->name);
-    for (size_t i = 0; i < n; ++i) {
-        fwrite(writer->packed + i * writer->bound, 1, sizes[i], writer->stream);
-        writer->written += sizes[i];
-    }
+    CHECK(!failed, STATUS_MEMORY, "out of memory while compressing");
     return 0;
 }
 
-static int item_write(struct writer *writer, struct item *item)
+// The next blocks in file order, across arrays: small ones do not leave threads without work.
+static void batch_collect(struct writer *writer)
 {
-    size_t blocks = (item->bytes + VTU_BLOCK - 1) / VTU_BLOCK;
-    uint64_t *head = memory_create(3 + blocks, sizeof *head);
-    CHECK_MEMORY(head);
-    if (blocks > 0) {
-        head[0] = blocks;
-        head[1] = VTU_BLOCK;
-        head[2] = item->bytes % VTU_BLOCK;
+    writer->n_jobs = writer->n_written = 0;
+    while (writer->item < writer->n_items && writer->n_jobs < BATCH) {
+        const struct item *item = &writer->items[writer->item];
+        if (writer->block == item->blocks) {
+            ++writer->item;
+            writer->block = 0;
+            continue;
+        }
+        writer->jobs[writer->n_jobs] =
+            (struct job){.item = item,
+                         .block = writer->block++,
+                         .packed = writer->packed + writer->n_jobs * writer->bound};
+        ++writer->n_jobs;
     }
+}
+
+static void item_begin(struct writer *writer, struct item *item)
+{
     item->offset = writer->written;
-    long place = ftell(writer->stream);
-    fwrite(head, sizeof *head, 3 + blocks, writer->stream);
-    writer->written += (3 + blocks) * sizeof *head;
-    int status = 0;
-    for (size_t first = 0; first < blocks && !status; first += BATCH) {
-        size_t n = blocks - first < BATCH ? blocks - first : BATCH;
-        status = batch_write(writer, item, first, n, head + 3 + first);
+    item->head_place = ftell(writer->stream);
+    fwrite(item->head, sizeof *item->head, 3 + item->blocks, writer->stream);
+    writer->written += (3 + item->blocks) * sizeof *item->head;
+}
+
+// Begin the arrays before @p end that have not begun.
+static void items_begin(struct writer *writer, const struct item *end)
+{
+    while (writer->begun < end)
+        item_begin(writer, writer->begun++);
+}
+
+// Write every block whose predecessors are written, too.
+static void batch_write(struct writer *writer)
+{
+    for (; writer->n_written < writer->n_jobs && writer->jobs[writer->n_written].done; ++writer->n_written) {
+        const struct job *job = &writer->jobs[writer->n_written];
+        items_begin(writer, job->item + 1);
+        fwrite(job->packed, 1, job->size, writer->stream);
+        writer->written += job->size;
+        job->item->head[3 + job->block] = job->size;
     }
-    if (!status && blocks > 0) { // the sizes are known now
-        fseek(writer->stream, place, SEEK_SET);
-        fwrite(head, sizeof *head, 3 + blocks, writer->stream);
-        fseek(writer->stream, 0, SEEK_END);
+}
+
+static int batch_compress(struct writer *writer)
+{
+    int failed = 0;
+#pragma omp parallel for schedule(dynamic, 1) reduction(max : failed)
+    for (size_t k = 0; k < writer->n_jobs; ++k) {
+        struct job *job = &writer->jobs[k];
+        const struct item *item = job->item;
+        const size_t n = block_size(item, job->block);
+        const char *raw = bytes_of(item, job->block * VTU_BLOCK, n,
+                                   writer->raw + (size_t)omp_get_thread_num() * writer->size);
+        job->size = compress_bytes(item->level, item->strategy, raw, n, job->packed, writer->bound);
+        failed = job->size == 0 ? 1 : failed;
+#pragma omp critical(vtu_batch)
+        {
+            job->done = true;
+            batch_write(writer);
+        }
     }
-    memory_free(head);
-    return status;
+    CHECK(!failed, STATUS_MEMORY, "out of memory while compressing");
+    return 0;
 }
 
 static void item_declare(FILE *stream, struct item *item)
@@ -182,6 +239,27 @@ static void head_write(FILE *stream, const struct vtu_grid *grid, struct item *i
     fputs("</Cells>\n</Piece>\n</UnstructuredGrid>\n" VTU_APPENDED, stream);
 }
 
+// Number of each point from 0 and from 1, and the type of a vertex: what particles have for cells.
+static void vertex_points(const void *data, size_t first, size_t n, void *to)
+{
+    int64_t *numbers = to;
+    (void)data;
+    for (size_t i = 0; i < n; ++i)
+        numbers[i] = (int64_t)(first + i);
+}
+
+static void vertex_ends(const void *data, size_t first, size_t n, void *to)
+{
+    vertex_points(data, first + 1, n, to);
+}
+
+static void vertex_types(const void *data, size_t first, size_t n, void *to)
+{
+    (void)data;
+    (void)first;
+    memset(to, 1, n); // VTK_VERTEX
+}
+
 static void items_fill(struct item *items, const struct vtu_grid *grid)
 {
     bool vertices = !grid->connectivity;
@@ -196,57 +274,99 @@ static void items_fill(struct item *items, const struct vtu_grid *grid)
                                  .components = array->components,
                                  .type = array->type,
                                  .data = array->data,
+                                 .read = array->read,
                                  .bytes = n * vtu_type_size(array->type)};
     }
     *items++ = (struct item){.name = "Points",
                              .components = 3,
                              .type = grid->points_type,
                              .data = grid->points,
+                             .read = grid->points_read,
                              .bytes = 3 * grid->n_points * vtu_type_size(grid->points_type)};
     *items++ = (struct item){.name = "connectivity",
                              .components = 1,
                              .type = VTU_INT64,
-                             .source = vertices ? SOURCE_INDEX : SOURCE_MEMORY,
-                             .data = (const char *)grid->connectivity,
+                             .data = grid->connectivity,
+                             .read = vertices ? vertex_points : NULL,
                              .bytes = n_connectivity * sizeof(int64_t)};
     *items++ = (struct item){.name = "offsets",
                              .components = 1,
                              .type = VTU_INT64,
-                             .source = vertices ? SOURCE_NEXT_INDEX : SOURCE_MEMORY,
-                             .data = (const char *)grid->offsets,
+                             .data = grid->offsets,
+                             .read = vertices ? vertex_ends : NULL,
                              .bytes = n_cells * sizeof(int64_t)};
     *items++ = (struct item){.name = "types",
                              .components = 1,
                              .type = VTU_UINT8,
-                             .source = vertices ? SOURCE_VERTEX : SOURCE_MEMORY,
-                             .data = (const char *)grid->types,
+                             .data = grid->types,
+                             .read = vertices ? vertex_types : NULL,
                              .bytes = n_cells};
 }
 
-static int file_write(FILE *stream, const struct vtu_grid *grid, struct item *items, size_t n)
+static int heads_create(struct item *items, size_t n)
 {
-    struct writer writer = {.stream = stream};
-    size_t largest = 1; // bytes of an array: small files need no large buffers
+    for (size_t i = 0; i < n; ++i) {
+        items[i].blocks = (items[i].bytes + VTU_BLOCK - 1) / VTU_BLOCK;
+        items[i].head = memory_create(3 + items[i].blocks, sizeof *items[i].head);
+        CHECK_MEMORY(items[i].head);
+        if (items[i].blocks > 0) {
+            items[i].head[0] = items[i].blocks;
+            items[i].head[1] = VTU_BLOCK;
+            items[i].head[2] = items[i].bytes % VTU_BLOCK;
+        }
+    }
+    return 0;
+}
+
+static void heads_free(struct item *items, size_t n)
+{
     for (size_t i = 0; i < n; ++i)
-        largest = items[i].bytes > largest ? items[i].bytes : largest;
-    const size_t block = largest < VTU_BLOCK ? largest : VTU_BLOCK;
-    const size_t blocks = (largest + VTU_BLOCK - 1) / VTU_BLOCK, batch = blocks < BATCH ? blocks : BATCH;
-    writer.bound = compressBound(block);
-    head_write(stream, grid, items);
-    writer.packed = memory_create(batch, writer.bound);
-    writer.raw = grid->connectivity ? NULL : memory_create(batch, block);
-    int status = writer.packed && (grid->connectivity || writer.raw) ? 0 : STATUS_MEMORY;
-    for (size_t i = 0; i < n && !status; ++i)
-        status = item_write(&writer, &items[i]);
-    memory_free(writer.packed);
-    memory_free(writer.raw);
-    if (status)
-        return status;
-    fputs(VTU_END, stream);
+        memory_free(items[i].head);
+}
+
+static int data_write(struct writer *writer)
+{
+    CALL(strategies_choose(writer));
+    for (batch_collect(writer); writer->n_jobs > 0; batch_collect(writer))
+        CALL(batch_compress(writer));
+    items_begin(writer, writer->items + writer->n_items);
+    return 0;
+}
+
+// What is known only now that all is compressed.
+static void heads_write(FILE *stream, const struct item *items, size_t n)
+{
     for (size_t i = 0; i < n; ++i) {
         fseek(stream, items[i].place, SEEK_SET);
         fprintf(stream, "%" PRIu64 "\"", items[i].offset);
     }
+    for (size_t i = 0; i < n; ++i) {
+        fseek(stream, items[i].head_place, SEEK_SET);
+        fwrite(items[i].head, sizeof *items[i].head, 3 + items[i].blocks, stream);
+    }
+}
+
+static int file_write(FILE *stream, const struct vtu_grid *grid, struct item *items, size_t n)
+{
+    struct writer writer = {.stream = stream, .items = items, .n_items = n, .begun = items, .size = 1};
+    const size_t threads = (size_t)parallel_threads();
+    size_t blocks = 0; // small files need no large buffers
+    for (size_t i = 0; i < n; ++i) {
+        const size_t block = items[i].bytes < VTU_BLOCK ? items[i].bytes : VTU_BLOCK;
+        writer.size = block > writer.size ? block : writer.size;
+        blocks += items[i].blocks;
+    }
+    const size_t batch = blocks < BATCH ? blocks : BATCH;
+    writer.bound = compressBound(writer.size);
+    head_write(stream, grid, items);
+    writer.raw = memory_create(threads, writer.size);
+    writer.packed = memory_create(batch > threads ? batch : threads, writer.bound);
+    int status = writer.raw && writer.packed ? data_write(&writer) : STATUS_MEMORY;
+    memory_free(writer.raw);
+    memory_free(writer.packed);
+    CALL(status);
+    fputs(VTU_END, stream);
+    heads_write(stream, items, n);
     return 0;
 }
 
@@ -257,7 +377,9 @@ int vtu_write(const char *path, const struct vtu_grid *grid)
     CHECK_MEMORY(items);
     items_fill(items, grid);
     struct file_atomic file;
-    int status = file_atomic_open(&file, path);
+    int status = heads_create(items, n);
+    if (!status)
+        status = file_atomic_open(&file, path);
     if (!status) {
         status = file_write(file.stream, grid, items, n);
         if (status)
@@ -265,6 +387,7 @@ int vtu_write(const char *path, const struct vtu_grid *grid)
         else
             status = file_atomic_commit(&file);
     }
+    heads_free(items, n);
     memory_free(items);
     return status;
 }

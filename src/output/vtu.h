@@ -7,12 +7,17 @@
 
 enum vtu_type { VTU_FLOAT32, VTU_FLOAT64, VTU_INT32, VTU_INT64, VTU_UINT8 };
 
+/** Makes numbers [@p first, first + @p n) of an array from @p data, of the array's type and interleaved;
+ * several threads call it at once. */
+typedef void vtu_source(const void *data, size_t first, size_t n, void *to);
+
 /** One array of a file: @c n tuples of @c components, interleaved. */
 struct vtu_array {
     char name[64];
     int components;
     enum vtu_type type;
     const void *data;
+    vtu_source *read; /**< makes the numbers from data; NULL: they are the data */
 };
 
 /** An unstructured grid as written or read. */
@@ -22,6 +27,7 @@ struct vtu_grid {
     size_t n_points, n_cells, n_connectivity;
     const void *points; /**< rows of 3 of points_type (float32 or float64) */
     enum vtu_type points_type;
+    vtu_source *points_read;               /**< as of an array */
     const int64_t *connectivity, *offsets; /**< NULL: one vertex per point (VTK_VERTEX), n_cells = n_points */
     const uint8_t *types;
     size_t n_point_arrays, n_cell_arrays;

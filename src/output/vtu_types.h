@@ -6,7 +6,7 @@
 
 /** What the writer and the reader of .vtu files have to agree on. */
 
-enum { VTU_BLOCK = 512 * 1024 }; /**< bytes compressed as one piece */
+enum { VTU_BLOCK = 128 * 1024 }; /**< bytes compressed as one piece */
 
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 #define VTU_BYTE_ORDER "BigEndian"

@@ -45,7 +45,7 @@ for object in $(find src -name '*.o' -size +0 | grep -v '/\.libs/' | sort); do
     # An object of a source that has been renamed or removed says nothing.
     [ -f "$source/$folder/$name.c" ] || continue
     prefixes=$(echo $(folder_prefixes "$folder") $(exceptions "$folder/$name") | sed 's/ /|/g')
-    for symbol in $(nm -g --defined-only "$object" | awk 'NF == 3 && $3 !~ /^__/ { print $3 }'); do
+    for symbol in $(nm -g --defined-only "$object" | awk 'NF == 3 && $3 !~ /^(__|[.])/ { print $3 }'); do
         checked=$((checked + 1))
         if ! echo "$symbol" | grep -q -E "^($prefixes)s?(_|\$)"; then
             echo "$folder/$name.c: the external symbol $symbol begins with no object's name"
