@@ -6,6 +6,7 @@
  * solid moves are refused: material points of a deforming wall leave holes (section 4.1.4). */
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "sph/boundary.h"
 #include "wall/wall_list.h"
 
@@ -19,6 +20,12 @@
 struct fixed_pair {
     uint32_t wall;
     uint8_t image; /**< periodic image: index into fixed_particles.shift */
+};
+
+/** The pairs of some consecutive particles that may be near, found by one thread. */
+struct fixed_part {
+    struct fixed_pair *pairs;
+    size_t n_pairs, capacity;
 };
 
 struct fixed_particles {
@@ -44,8 +51,11 @@ struct fixed_particles {
     uint32_t *back_near;   /**< near number of each pair in back */
     double *pair_force[3]; /**< per pair */
     size_t force_capacity[3], back_near_capacity;
-    uint8_t *marked; /**< per moving particle: may be near, workspace of the list */
-    size_t marked_capacity;
+    /* workspace of the list */
+    uint8_t *marked;             /**< per moving particle: may be near */
+    uint32_t *candidate, *count; /**< the particles marked, and how many pairs each has */
+    size_t marked_capacity, candidate_capacity, count_capacity, n_parts;
+    struct fixed_part *parts; /**< one per thread */
 };
 
 static int fixed_particles_check(const struct model *model, const struct model_wall *wall)
@@ -263,6 +273,8 @@ static int fixed_particles_create(struct boundary *boundary, const struct model 
                                      ? (rest % 3 - 1) * (model->domain.upper[d] - model->domain.lower[d])
                                      : 0.0;
     particles_move(boundary, 0.0);
+    f->n_parts = (size_t)parallel_threads();
+    CHECK_MEMORY(f->parts = memory_create(f->n_parts, sizeof *f->parts));
     CHECK_MEMORY(f->group_name = memory_print("wall-%s", wall->name));
     fields_register(boundary, f);
     double reach = view->kernel.support + view->skin;
@@ -283,7 +295,10 @@ static void fixed_particles_destroy(struct boundary *boundary)
     }
     void *const others[] = {f->group_name, f->X,         f->surface, f->load_point, f->order,
                             f->p,          f->rho,       f->pairs,   f->start,      f->back_start,
-                            f->back,       f->back_near, f->marked};
+                            f->back,       f->back_near, f->marked,  f->candidate,  f->count};
+    for (size_t k = 0; k < f->n_parts; ++k)
+        memory_free(f->parts[k].pairs);
+    memory_free(f->parts);
     for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
         memory_free(others[k]);
     cell_grid_reset(&f->grid);
@@ -336,10 +351,91 @@ static int moving_mark(struct fixed_particles *f, const struct fluid_view *view,
     return 0;
 }
 
+/** The pairs of particle @p i, added to a part. */
+static int pairs_find(const struct fixed_particles *f, const struct particles *block, size_t i, double reach,
+                      struct fixed_part *part)
+{
+    struct cell_range ranges[CELL_GRID_RANGES];
+    const double place[3] = {block->x[0][i], block->x[1][i], block->x[2][i]};
+    const size_t n = cell_grid_ranges(&f->grid, place, reach, ranges);
+    for (size_t r = 0; r < n; ++r)
+        for (uint32_t c = ranges[r].begin; c < ranges[r].end; ++c) {
+            const uint32_t k = f->order[c];
+            double r2 = 0.0;
+            for (int d = 0; d < 3; ++d)
+                r2 += pow(place[d] - f->x[d][k] - ranges[r].shift[d], 2.0);
+            if (r2 >= reach * reach)
+                continue;
+            CALL(memory_grow((void **)&part->pairs, &part->capacity, part->n_pairs + 1, sizeof *part->pairs));
+            part->pairs[part->n_pairs++] = (struct fixed_pair){k, image_of(&ranges[r])};
+        }
+    return 0;
+}
+
+/** Fill the parts, each with the pairs of its share of @p n candidates. */
+static int parts_fill(struct fixed_particles *f, const struct particles *block, double reach, size_t n)
+{
+    int status = 0;
+#pragma omp parallel for schedule(static, 1) reduction(max : status)
+    for (size_t k = 0; k < f->n_parts; ++k) {
+        struct fixed_part *part = &f->parts[k];
+        int failed = 0;
+        part->n_pairs = 0;
+        for (size_t c = n * k / f->n_parts; c < n * (k + 1) / f->n_parts && !failed; ++c) {
+            const size_t before = part->n_pairs;
+            failed = pairs_find(f, block, f->candidate[c], reach, part);
+            f->count[c] = (uint32_t)(part->n_pairs - before);
+        }
+        status = failed > status ? failed : status;
+    }
+    return status;
+}
+
+/** The parts one behind the other, the same for any number of them. */
+static int parts_join(struct fixed_particles *f)
+{
+    f->n_pairs = 0;
+    for (size_t k = 0; k < f->n_parts; ++k)
+        f->n_pairs += f->parts[k].n_pairs;
+    CALL(memory_grow((void **)&f->pairs, &f->pair_capacity, f->n_pairs, sizeof *f->pairs));
+    for (size_t k = 0, first = 0; k < f->n_parts; first += f->parts[k++].n_pairs)
+        if (f->parts[k].n_pairs)
+            memcpy(f->pairs + first, f->parts[k].pairs, f->parts[k].n_pairs * sizeof *f->pairs);
+    for (int d = 0; d < 3; ++d)
+        CALL(memory_grow((void **)&f->pair_force[d], &f->force_capacity[d], f->n_pairs, sizeof(double)));
+    return 0;
+}
+
+static int pairs_list(struct boundary *boundary, const struct particles *block, double reach)
+{
+    struct fixed_particles *f = boundary->data;
+    size_t n = 0, first = 0;
+    for (size_t i = 0; i < block->n; ++i)
+        n += f->marked[i];
+    CALL(memory_grow((void **)&f->candidate, &f->candidate_capacity, n, sizeof *f->candidate));
+    CALL(memory_grow((void **)&f->count, &f->count_capacity, n, sizeof *f->count));
+    n = 0;
+    for (size_t i = 0; i < block->n; ++i)
+        if (f->marked[i])
+            f->candidate[n++] = (uint32_t)i;
+    CALL(parts_fill(f, block, reach, n));
+    CALL(parts_join(f));
+    CALL(boundary_reserve_near(boundary, n));
+    CALL(memory_grow((void **)&f->start, &f->start_capacity, n + 1, sizeof *f->start));
+    boundary->n_near = 0;
+    for (size_t c = 0; c < n; first += f->count[c++]) {
+        if (!f->count[c])
+            continue;
+        f->start[boundary->n_near] = (uint32_t)first;
+        boundary->near[boundary->n_near++] = f->candidate[c];
+    }
+    f->start[boundary->n_near] = (uint32_t)first;
+    return 0;
+}
+
 static int fixed_particles_list(struct boundary *boundary, const struct fluid_view *view)
 {
     struct fixed_particles *f = boundary->data;
-    const struct particles *block = view->particles;
     const double reach = view->kernel.support + view->skin;
     if (boundary->moving) {
         particles_move(boundary, view->t);
@@ -350,34 +446,7 @@ static int fixed_particles_list(struct boundary *boundary, const struct fluid_vi
     const double *x[3] = {f->x[0], f->x[1], f->x[2]};
     CALL(cell_grid_sort(&f->grid, x, f->n, f->order));
     CALL(moving_mark(f, view, reach));
-    boundary->n_near = f->n_pairs = 0;
-    for (size_t i = 0; i < block->n; ++i) {
-        if (!f->marked[i])
-            continue;
-        struct cell_range ranges[CELL_GRID_RANGES];
-        double place[3] = {block->x[0][i], block->x[1][i], block->x[2][i]};
-        size_t n = cell_grid_ranges(&f->grid, place, reach, ranges), first = f->n_pairs;
-        for (size_t r = 0; r < n; ++r)
-            for (uint32_t c = ranges[r].begin; c < ranges[r].end; ++c) {
-                uint32_t k = f->order[c];
-                double r2 = 0.0;
-                for (int d = 0; d < 3; ++d)
-                    r2 += pow(place[d] - f->x[d][k] - ranges[r].shift[d], 2.0);
-                if (r2 >= reach * reach)
-                    continue;
-                CALL(memory_grow((void **)&f->pairs, &f->pair_capacity, f->n_pairs + 1, sizeof *f->pairs));
-                f->pairs[f->n_pairs++] = (struct fixed_pair){k, image_of(&ranges[r])};
-            }
-        if (f->n_pairs == first)
-            continue;
-        CALL(boundary_reserve_near(boundary, boundary->n_near + 1));
-        CALL(memory_grow((void **)&f->start, &f->start_capacity, boundary->n_near + 2, sizeof *f->start));
-        f->start[boundary->n_near] = (uint32_t)first;
-        f->start[boundary->n_near + 1] = (uint32_t)f->n_pairs;
-        boundary->near[boundary->n_near++] = (uint32_t)i;
-    }
-    for (int d = 0; d < 3; ++d)
-        CALL(memory_grow((void **)&f->pair_force[d], &f->force_capacity[d], f->n_pairs, sizeof(double)));
+    CALL(pairs_list(boundary, view->particles, reach));
     return pairs_turn(boundary);
 }
 
