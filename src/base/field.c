@@ -24,25 +24,30 @@ size_t field_size(enum field_type type)
     return 0;
 }
 
-int field_read(const struct field_group *group, const struct field *field, void *destination)
+void field_read_part(const struct field *field, size_t first, size_t n, void *destination)
 {
     const size_t size = field_size(field->type), components = (size_t)field->components;
-    const size_t count = *group->count;
 
-    if (!field->data[0] && field->fill)
-        return field->fill(group->owner, field, destination);
-    if (count == 0)
-        return STATUS_OK; // arrays of an empty block may not exist yet
+    if (n == 0)
+        return; // arrays of an empty block may not exist yet
     if (components == 1 || !field->data[1]) {
-        memcpy(destination, field->data[0], count * components * size);
-        return STATUS_OK;
+        const size_t item = components * size;
+        memcpy(destination, (const char *)field->data[0] + first * item, n * item);
+        return;
     }
     for (size_t c = 0; c < components; c++) {
-        const char *from = field->data[c];
+        const char *from = (const char *)field->data[c] + first * size;
         char *to = (char *)destination + c * size;
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = 0; i < n; i++)
             memcpy(to + i * components * size, from + i * size, size);
     }
+}
+
+int field_read(const struct field_group *group, const struct field *field, void *destination)
+{
+    if (!field->data[0] && field->fill)
+        return field->fill(group->owner, field, destination);
+    field_read_part(field, 0, *group->count, destination);
     return STATUS_OK;
 }
 

@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { PART = 16384 }; /* items written at once */
+
 /** Types in the file (little endian whatever the machine) and in memory. */
 static hid_t file_type(enum field_type type)
 {
@@ -84,47 +86,79 @@ static int field_shape(const struct field_group *group, const struct field *fiel
 
 /** Returns 0, or why it failed. */
 static int dataset_create(hid_t parent, const struct field_group *group, const struct field *field,
-                          const void *values)
+                          hid_t *set, hid_t *space)
 {
     hsize_t shape[2];
     const int rank = field_shape(group, field, shape);
     const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
-    const hid_t space = H5Screate_simple(rank, shape, NULL);
+    *space = H5Screate_simple(rank, shape, NULL);
     H5Pset_obj_track_times(properties, false);
-    const hid_t set =
-        H5Dcreate2(parent, field->name, file_type(field->type), space, H5P_DEFAULT, properties, H5P_DEFAULT);
-    int reason = set < 0 ? failure() : 0;
-    if (!reason && *group->count > 0 &&
-        H5Dwrite(set, memory_type(field->type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-        reason = failure();
-    if (set >= 0 && H5Dclose(set) < 0 && !reason)
-        reason = failure();
-    H5Sclose(space);
+    *set =
+        H5Dcreate2(parent, field->name, file_type(field->type), *space, H5P_DEFAULT, properties, H5P_DEFAULT);
+    const int reason = *set < 0 ? failure() : 0;
     H5Pclose(properties);
     return reason;
+}
+
+/** Write items [first, first + n) of a field; returns 0, or why it failed. */
+static int part_write(hid_t set, hid_t space, const struct field *field, size_t first, size_t n,
+                      const void *values)
+{
+    const hsize_t begin[2] = {first, 0}, shape[2] = {n, (hsize_t)field->components};
+    const hid_t memory = H5Screate_simple(field->components > 1 ? 2 : 1, shape, NULL);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, begin, NULL, shape, NULL);
+    const int reason =
+        H5Dwrite(set, memory_type(field->type), memory, space, H5P_DEFAULT, values) < 0 ? failure() : 0;
+    H5Sclose(memory);
+    return reason;
+}
+
+/** A part at a time, so that a checkpoint needs no memory to speak of. */
+static int parts_save(hid_t set, hid_t space, const char *path, const struct field_group *group,
+                      const struct field *field, void *values)
+{
+    const size_t count = *group->count, components = (size_t)field->components;
+    for (size_t first = 0; first < count; first += PART) {
+        const size_t n = count - first < PART ? count - first : PART;
+        field_read_part(field, first, n, values);
+        const size_t bad = find_bad(field, values, n * components);
+        CHECK(bad == n * components, STATUS_NUMERICAL,
+              "the state is not finite: %s of %s, item %zu, component %zu; no checkpoint is made of it",
+              field->name, group->name, first + bad / components, bad % components);
+        const int reason = part_write(set, space, field, first, n, values);
+        if (reason)
+            return report_failed(path, field->name, reason);
+    }
+    return 0;
 }
 
 static int field_save(hid_t parent, const char *path, const struct field_group *group,
                       const struct field *field, void *values)
 {
-    const size_t n = *group->count * (size_t)field->components;
-    CALL(field_read(group, field, values));
-    const size_t bad = find_bad(field, values, n);
-    CHECK(bad == n, STATUS_NUMERICAL,
-          "the state is not finite: %s of %s, item %zu, component %zu; no checkpoint is made of it",
-          field->name, group->name, bad / (size_t)field->components, bad % (size_t)field->components);
-    const int reason = dataset_create(parent, group, field, values);
-    return reason ? report_failed(path, field->name, reason) : 0;
+    hid_t set, space;
+    const int reason = dataset_create(parent, group, field, &set, &space);
+    int status = reason ? report_failed(path, field->name, reason)
+                        : parts_save(set, space, path, group, field, values);
+    if (set >= 0 && H5Dclose(set) < 0 && !status)
+        status = report_failed(path, field->name, failure());
+    H5Sclose(space);
+    return status;
 }
 
-static int group_save(hid_t file, const char *path, const struct field_group *group)
+/** Size of the largest item of a group's fields. */
+static size_t item_size(const struct field_group *group)
 {
     size_t largest = 1;
     for (size_t f = 0; f < group->n_fields; ++f) {
         const size_t size = field_size(group->fields[f].type) * (size_t)group->fields[f].components;
         largest = size > largest ? size : largest;
     }
-    void *values = memory_create(*group->count, largest);
+    return largest;
+}
+
+static int group_save(hid_t file, const char *path, const struct field_group *group)
+{
+    void *values = memory_create(PART, item_size(group));
     CHECK_MEMORY(values);
     const hid_t parent = H5Gcreate2(file, group->name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     int status = parent >= 0 ? 0 : report_failed(path, group->name, failure());
@@ -241,14 +275,9 @@ static int field_load(hid_t parent, const struct field_group *group, const struc
 static int group_load(hid_t file, const struct field_group *group, hsize_t count,
                       char reason[CHECKPOINT_REASON])
 {
-    size_t largest = 1;
     if (group->resize)
         CALL(group->resize((void *)group->owner, (size_t)count));
-    for (size_t f = 0; f < group->n_fields; ++f) {
-        const size_t size = field_size(group->fields[f].type) * (size_t)group->fields[f].components;
-        largest = size > largest ? size : largest;
-    }
-    void *values = memory_create(*group->count, largest);
+    void *values = memory_create(*group->count, item_size(group));
     CHECK_MEMORY(values);
     const hid_t parent = H5Gopen2(file, group->name, H5P_DEFAULT);
     int status = 0;

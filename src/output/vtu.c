@@ -19,7 +19,7 @@
 #include <zlib.h>
 
 enum {
-    BATCH = 64,         // blocks compressed side by side; also bounds the memory: 64 x 128 KiB
+    SHARE = 8,          // blocks for each thread in a batch; bounds the memory: 8 x 128 KiB per thread
     SAMPLE = 32 * 1024, // bytes that stand for an array where ways to compress are compared
     OFFSET_WIDTH = 24   // room in the head for an offset that is known after compression
 };
@@ -51,10 +51,10 @@ struct writer {
     FILE *stream;
     struct item *items;
     size_t n_items, item, block; // the next one to be compressed
-    char *raw, *packed;          // one block per thread, only for arrays that are made; BATCH blocks
+    char *raw, *packed;          // one block per thread, only for arrays that are made; a batch
     size_t size, bound;          // largest size of a block, of a compressed block
-    struct job jobs[BATCH];
-    size_t n_jobs, n_written;
+    struct job *jobs;            // blocks compressed side by side
+    size_t n_jobs, n_written, batch;
     struct item *begun; // the first one whose head is not in the file yet
     uint64_t written;   // bytes of data so far
 };
@@ -129,7 +129,7 @@ static int strategies_choose(struct writer *writer)
 static void batch_collect(struct writer *writer)
 {
     writer->n_jobs = writer->n_written = 0;
-    while (writer->item < writer->n_items && writer->n_jobs < BATCH) {
+    while (writer->item < writer->n_items && writer->n_jobs < writer->batch) {
         const struct item *item = &writer->items[writer->item];
         if (writer->block == item->blocks) {
             ++writer->item;
@@ -356,14 +356,16 @@ static int file_write(FILE *stream, const struct vtu_grid *grid, struct item *it
         writer.size = block > writer.size ? block : writer.size;
         blocks += items[i].blocks;
     }
-    const size_t batch = blocks < BATCH ? blocks : BATCH;
+    writer.batch = blocks < SHARE * threads ? blocks : SHARE * threads;
     writer.bound = compressBound(writer.size);
     head_write(stream, grid, items);
     writer.raw = memory_create(threads, writer.size);
-    writer.packed = memory_create(batch > threads ? batch : threads, writer.bound);
-    int status = writer.raw && writer.packed ? data_write(&writer) : STATUS_MEMORY;
+    writer.packed = memory_create(writer.batch > threads ? writer.batch : threads, writer.bound);
+    writer.jobs = memory_create(writer.batch, sizeof *writer.jobs);
+    int status = writer.raw && writer.packed && writer.jobs ? data_write(&writer) : STATUS_MEMORY;
     memory_free(writer.raw);
     memory_free(writer.packed);
+    memory_free(writer.jobs);
     CALL(status);
     fputs(VTU_END, stream);
     heads_write(stream, items, n);
