@@ -59,7 +59,8 @@ int field_read(const struct field_group *group, const struct field *field, void 
 /** Copy items [first, first + n) of a field that has arrays, interleaved, into @p destination. */
 void field_read_part(const struct field *field, size_t first, size_t n, void *destination);
 
-/** The reverse of field_read: from @p source (count x components, interleaved) into the arrays of a field that has some. */
+/** The reverse of field_read: from @p source (count x components, interleaved) into the arrays of a field
+ * that has some. */
 void field_write(const struct field_group *group, const struct field *field, const void *source);
 
 /** Number of fields of a group that are state. */
