@@ -42,7 +42,7 @@ void parallel_wait_briefly(char **arguments)
     if (length <= 0 || getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT"))
         return;
     program[length] = '\0';
-    if (!setenv("GOMP_SPINCOUNT", "5000", 1))
+    if (!setenv("GOMP_SPINCOUNT", "1000", 1))
         execv(program, arguments);
 }
 
