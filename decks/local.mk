@@ -1,4 +1,7 @@
 nobase_dist_pkgdata_DATA += \
+	decks/cylinder-2d2/README.md \
+	decks/cylinder-2d2/cylinder-2d2.xml \
+	decks/cylinder-2d2/schaefer_turek_bounds.csv \
 	decks/exact-hydrostatic-3d/README.md \
 	decks/exact-hydrostatic-3d/exact-hydrostatic-3d.xml \
 	decks/exact-hydrostatic-3d/exact_hydrostatic_3d.csv \
@@ -8,6 +11,10 @@ nobase_dist_pkgdata_DATA += \
 	decks/hydrostatic-plates/README.md \
 	decks/hydrostatic-plates/hydrostatic-plates.xml \
 	decks/hydrostatic-plates/hydrostatic_plates_analytic.csv \
+	decks/isochoric-box/README.md \
+	decks/isochoric-box/fixed-particles.png \
+	decks/isochoric-box/isochoric-box.xml \
+	decks/isochoric-box/sliding-particles.png \
 	decks/taylor-couette/README.md \
 	decks/taylor-couette/taylor-couette.xml \
 	decks/taylor-couette/taylor_couette_analytic.csv \

@@ -26,3 +26,8 @@ TESTS += tests/system/test_faults.sh
 dist_check_SCRIPTS += tests/system/test_threads.sh
 EXTRA_DIST += tests/system/test_threads.py
 TESTS += tests/system/test_threads.sh
+
+# Coarse runs of the paper benchmarks.
+dist_check_SCRIPTS += tests/system/test_benchmarks.sh
+EXTRA_DIST += tests/system/test_benchmarks.py
+TESTS += tests/system/test_benchmarks.sh

@@ -54,6 +54,8 @@ refused "--length" turek-hron-fsi2 --length 9
 refused "dx = 0.004 only" exact-pressurewave-1d --dx 0.002
 refused "sliding-particles" hydrostatic-plates --wall fixed-particles --no-pressure-gradient
 refused "too coarse" taylor-couette --facets 5
+refused "too coarse" cylinder-2d2 --facets 7
+refused "does not divide the wall" isochoric-box --dx 0.01
 python3 "$deckgen" hydrostatic-plates --dx 0 2>"$work/err" && fail "--dx 0 was accepted"
 grep -q "must be positive" "$work/err" || fail "--dx 0: does not say what is wrong"
 python3 "$deckgen" hydrostatic-plates --dx five 2>"$work/err" && fail "--dx five was accepted"
@@ -82,6 +84,10 @@ try taylor-couette --facets 192 --corners paper
 try taylor-couette --wall fixed-particles
 try hydrostatic-plates --wall fixed-particles --dx 0.01
 try hydrostatic-plates --no-pressure-gradient
+try cylinder-2d2 --dx 0.01 --wall fixed-particles
+try cylinder-2d2 --dx 0.41/50 --facets 24 --corners paper
+try isochoric-box --wall fixed-particles
+try isochoric-box --dx 0.0025
 try channel --wall fixed-particles --dx 0.01
 try box-2d --cells 31 29
 try box-3d --cells 12 13 14
