@@ -406,7 +406,7 @@ int fluid_interface(struct fluid *fluid, bool moving_only)
     double since = timer_now();
     for (size_t k = 0; k < fluid->n_boundaries; ++k)
         if (!moving_only || fluid->boundaries[k]->coupled)
-            CALL(boundary_prepare(fluid->boundaries[k], &fluid->view));
+            CALL(boundary_prepare(fluid->boundaries[k], &fluid->view, moving_only));
     fluid->type->pressure(fluid, moving_only);
     for (size_t k = 0; k < fluid->n_openings; ++k)
         CALL(fluid->openings[k].type->values(&fluid->openings[k], &fluid->view, fluid->block));

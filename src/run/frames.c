@@ -105,7 +105,7 @@ static int virtual_collect(struct frames *frames, const struct boundary *boundar
 {
     struct virtual_block *block = &frames->virtuals;
     const size_t i = boundary->near[near];
-    CALL(boundary->type->gather(boundary, view, near, &frames->neighbours));
+    CALL(boundary->type->unfold(boundary, view, near, &frames->neighbours));
     CALL(virtual_reserve(block, block->n + frames->neighbours.n));
     for (size_t k = 0; k < frames->neighbours.n; ++k, ++block->n) {
         for (int d = 0; d < 3; ++d)

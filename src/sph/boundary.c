@@ -64,11 +64,11 @@ int boundary_state(struct boundary *boundary, struct field_list *list)
     return boundary->type->state ? boundary->type->state(boundary, list) : 0;
 }
 
-int boundary_prepare(struct boundary *boundary, const struct fluid_view *view)
+int boundary_prepare(struct boundary *boundary, const struct fluid_view *view, bool again)
 {
     for (size_t s = 0; s < boundary->n_surfaces; ++s)
         surface_at(boundary->surfaces[s], view->t);
-    return boundary->type->prepare(boundary, view);
+    return boundary->type->prepare(boundary, view, again);
 }
 
 int boundary_reserve_near(struct boundary *boundary, size_t n)

@@ -60,13 +60,17 @@ struct boundary_type {
     /** Once a step after the drift: put penetrated particles back (3-D sliding walls); may be NULL. */
     int (*put_back)(struct boundary *boundary, const struct fluid_view *view, struct particles *particles);
     /** Surfaces have been evaluated (now): projection and shares, or moving the wall particles; fills
-     * kernel_sum. */
-    int (*prepare)(struct boundary *boundary, const struct fluid_view *view);
+     * kernel_sum. @p again: nothing but surfaces of solids has moved since the last call, and little: what
+     * decides which wall points a particle meets, and how much they weigh, may stay. */
+    int (*prepare)(struct boundary *boundary, const struct fluid_view *view, bool again);
     /** p, rho, u of wall particles or contacts from the fluid's newest rho, p, u. */
     int (*close)(struct boundary *boundary, const struct fluid_view *view);
     /** Wall neighbours of near particle number @p near (within the support), appended to nothing: n is set.
-     * Thread-safe for different @p near and @p neighbours. */
+     * Thread-safe for different @p near and @p neighbours. A neighbour may stand for several particles. */
     int (*gather)(const struct boundary *boundary, const struct fluid_view *view, size_t near,
+                  struct wall_neighbours *neighbours);
+    /** The same with each wall particle on its own, for output. */
+    int (*unfold)(const struct boundary *boundary, const struct fluid_view *view, size_t near,
                   struct wall_neighbours *neighbours);
     /** Reaction: @p force[k] (component arrays) is the force of neighbour k on the fluid particle; store its
      * negative per source for near particle @p near. Thread-safe for different @p near. */
@@ -109,7 +113,7 @@ void boundary_destroy(struct boundary *boundary);
 int boundary_state(struct boundary *boundary, struct field_list *list);
 
 /** Evaluate the surfaces at view->t, then prepare. */
-int boundary_prepare(struct boundary *boundary, const struct fluid_view *view);
+int boundary_prepare(struct boundary *boundary, const struct fluid_view *view, bool again);
 
 /** Room for @p n near particles (near, kernel_sum). */
 int boundary_reserve_near(struct boundary *boundary, size_t n);

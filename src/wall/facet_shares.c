@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 
-enum { PROFILE_STEPS = 1024, TABLE_STEPS = 96, GAUSS_HALF = 6, GRADED_PANELS = 16 };
+enum { PROFILE_STEPS = 1024, LAYER_STEPS = 512, TABLE_STEPS = 96, GAUSS_HALF = 6, GRADED_PANELS = 16 };
 
 #define PI 3.14159265358979323846
 /** Least distance, and least distance of the foot point from an edge line, in lattice spacings. */
@@ -47,6 +47,63 @@ void facet_shares_block(const struct facet_shares *shares, double d, double sums
                 sums[SHARE_VISCOUS] += slope;
             }
     }
+}
+
+void facet_shares_layer_exact(const struct facet_shares *shares, double y, double moments[LAYER_MOMENTS])
+{
+    const int q = shares->layers;
+    const double dx2 = shares->dx * shares->dx;
+    for (int k = 0; k < LAYER_MOMENTS; ++k)
+        moments[k] = 0.0;
+    for (int s = 0; s < q; ++s)
+        for (int t = 0; t < q; ++t) {
+            const double count = (s ? 2.0 : 1.0) * (t ? 2.0 : 1.0);
+            const double r = sqrt(y * y + (double)(s * s + t * t) * dx2);
+            const double slope = r > 0.0 ? count * kernel_dw(&shares->kernel, r) / r : 0.0;
+            moments[LAYER_W] += count * kernel_w(&shares->kernel, r);
+            moments[LAYER_NORMAL] += slope * y;
+            moments[LAYER_VISCOUS] += slope;
+            moments[LAYER_TANGENT] += slope * (double)(s * s) * dx2;
+        }
+}
+
+/** Layers begin at half a spacing: nearer ones are not tabulated. */
+static double layer_begin(const struct facet_shares *shares)
+{
+    return 0.5 * shares->dx;
+}
+
+void facet_shares_layer(const struct facet_shares *shares, double y, double moments[LAYER_MOMENTS])
+{
+    const double step = shares->range / LAYER_STEPS, u = (y - layer_begin(shares)) / step;
+    if (u >= LAYER_STEPS) {
+        for (int k = 0; k < LAYER_MOMENTS; ++k)
+            moments[k] = 0.0;
+        return;
+    }
+    const int i = u > 0.0 ? (int)u : 0;
+    const double x = u - i, z = 1.0 - x;
+    const double *l = shares->layer[i], *r = shares->layer[i + 1];
+    const double b0 = z * z * (1.0 + 2.0 * x), b1 = x * x * (1.0 + 2.0 * z), b2 = x * z * z * step,
+                 b3 = -x * x * z * step;
+    for (int k = 0; k < LAYER_MOMENTS; ++k)
+        moments[k] = b0 * l[2 * k] + b1 * r[2 * k] + b2 * l[2 * k + 1] + b3 * r[2 * k + 1];
+}
+
+static int layer_create(struct facet_shares *shares)
+{
+    CHECK_MEMORY(shares->layer = memory_create(LAYER_STEPS + 1, sizeof *shares->layer));
+    const double step = shares->range / LAYER_STEPS;
+    for (int i = 0; i <= LAYER_STEPS; ++i) {
+        double f[5][LAYER_MOMENTS];
+        for (int k = 0; k < 5; ++k)
+            facet_shares_layer_exact(shares, layer_begin(shares) + (i + k - 2) * step, f[k]);
+        for (int l = 0; l < LAYER_MOMENTS; ++l) {
+            shares->layer[i][2 * l] = f[2][l];
+            shares->layer[i][2 * l + 1] = (f[0][l] - 8.0 * f[1][l] + 8.0 * f[3][l] - f[4][l]) / (12.0 * step);
+        }
+    }
+    return 0;
 }
 
 /** S, G, V and, unless NULL, their slopes from the cubic table. */
@@ -217,6 +274,8 @@ int facet_shares_create(struct facet_shares *shares, struct kernel kernel, doubl
                 (f[0][l] - 8.0 * f[1][l] + 8.0 * f[3][l] - f[4][l]) / (12.0 * step);
         }
     }
+    if (kernel.dim == 3)
+        CALL(layer_create(shares));
     if (kernel.dim == 2) {
         size_t n = (size_t)(TABLE_STEPS + 1) * (TABLE_STEPS + 1);
         shares->table = memory_create(n, sizeof *shares->table);
@@ -230,6 +289,7 @@ void facet_shares_reset(struct facet_shares *shares)
 {
     memory_free(shares->profile);
     memory_free(shares->table);
+    memory_free(shares->layer);
     *shares = (struct facet_shares){0};
 }
 

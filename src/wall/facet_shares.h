@@ -13,14 +13,19 @@
  * sign of d. */
 enum facet_share { SHARE_DENSITY, SHARE_PRESSURE, SHARE_VISCOUS, SHARES };
 
+/** Sums over the virtual particles of one layer at distance y from the particle, at in-plane offsets s, t
+ * from its middle: W, W' y/r, W'/r, W' s^2/r (= W' t^2/r). */
+enum layer_moment { LAYER_W, LAYER_NORMAL, LAYER_VISCOUS, LAYER_TANGENT, LAYER_MOMENTS };
+
 struct facet_shares {
     struct kernel kernel;
     double dx;
-    int layers;           /**< q = ceil(r_c / dx): layers of a block; it is 2 q - 1 wide */
-    double range;         /**< r_c - dx/2: where S, G and V vanish */
-    double last;          /**< largest distance at which shares are evaluated (beyond: 0/0) */
-    double (*profile)[6]; /**< value and slope of S, G, V at equal steps of d */
-    double (*table)[3];   /**< 2-D: C(a, s) without its singular part */
+    int layers;                         /**< q = ceil(r_c / dx): layers of a block; it is 2 q - 1 wide */
+    double range;                       /**< r_c - dx/2: where S, G and V vanish */
+    double last;                        /**< largest distance at which shares are evaluated (beyond: 0/0) */
+    double (*profile)[6];               /**< value and slope of S, G, V at equal steps of d */
+    double (*table)[3];                 /**< 2-D: C(a, s) without its singular part */
+    double (*layer)[2 * LAYER_MOMENTS]; /**< 3-D: value and slope of the moments at equal steps of y */
 };
 
 /** Make the tables for lattice spacing @p dx (1-D needs none but has S, G, V). Free with facet_shares_reset.
@@ -30,6 +35,12 @@ void facet_shares_reset(struct facet_shares *shares);
 
 /** S, G, V at distance @p d >= 0 by summing the block. */
 void facet_shares_block(const struct facet_shares *shares, double d, double sums[SHARES]);
+
+/** 3-D: moments of a layer at distance @p y >= 0, from a table good to 1e-8 of their values at dx/2. */
+void facet_shares_layer(const struct facet_shares *shares, double y, double moments[LAYER_MOMENTS]);
+
+/** The same by summing. */
+void facet_shares_layer_exact(const struct facet_shares *shares, double y, double moments[LAYER_MOMENTS]);
 
 /** V from the table; 0 <= d, 0 beyond the range. */
 double facet_shares_viscous(const struct facet_shares *shares, double d);

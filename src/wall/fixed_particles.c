@@ -468,8 +468,9 @@ static inline double pair_vector(const struct fixed_particles *f, const struct p
     return r2;
 }
 
-static int fixed_particles_prepare(struct boundary *boundary, const struct fluid_view *view)
+static int fixed_particles_prepare(struct boundary *boundary, const struct fluid_view *view, bool again)
 {
+    (void)again;
     const struct fixed_particles *f = boundary->data;
     if (boundary->moving) {
         double moved2 = 0.0;
@@ -608,6 +609,7 @@ const struct boundary_type boundary_fixed_particles = {
     .prepare = fixed_particles_prepare,
     .close = fixed_particles_close,
     .gather = fixed_particles_gather,
+    .unfold = fixed_particles_gather,
     .react = fixed_particles_react,
     .load = fixed_particles_load,
 };

@@ -12,6 +12,10 @@
 /** Facets are coplanar if the cosine of their angle and their distances differ by less than this (of dx). */
 #define COPLANAR_COSINE 1e-12
 #define COPLANAR_DISTANCE 1e-6
+/** A contact behind a facet stays there while it follows it (of dx). */
+#define LEAST_BEHIND 1e-12
+/** Cosine of the angle between facets up to which the sums at one serve the other, too (3-D). */
+#define SHARED_COSINE 0.8660254037844386
 /** A penetrated particle sees the wall from this far outside, and is put back so far outside (of dx). */
 #define OUTSIDE_EVALUATE 1e-3
 #define OUTSIDE_PUT_BACK 0.1
@@ -139,6 +143,7 @@ void sliding_contact_finish(const struct boundary *boundary, const struct hit *h
     const struct sliding *s = boundary->data;
     const struct surface *surface = boundary->surfaces[hit->surface];
     contact->surface = hit->surface;
+    contact->piece = hit->piece;
     for (int k = 0; k < 3; ++k) {
         contact->shift[k] = hit->shift[k];
         contact->u[k] = contact->a[k] = 0.0;
@@ -272,6 +277,27 @@ static size_t add_facet(const struct boundary *boundary, struct hit *hit, const 
     return g == n ? n + 1 : n;
 }
 
+/** In 3-D the sums at a front contact serve the weaker ones whose facets are turned by little: there are many
+ * where facets are small. */
+static void share_sums(struct contact *contacts, size_t n)
+{
+    for (size_t k = 0; k < n; ++k) {
+        if (!contacts[k].front)
+            continue;
+        size_t best = k;
+        for (size_t l = 0; l < n; ++l) {
+            const double w = contacts[l].weight[SHARE_PRESSURE], most = contacts[best].weight[SHARE_PRESSURE];
+            if (contacts[l].front && (w > most || (w == most && l < best)) &&
+                dot(contacts[l].normal, contacts[k].normal) > SHARED_COSINE)
+                best = l;
+        }
+        contacts[k].source = (int32_t)best;
+    }
+    for (size_t k = 0; k < n; ++k) /* ascends to stronger ones only */
+        while (contacts[contacts[k].source].source != contacts[k].source)
+            contacts[k].source = contacts[contacts[k].source].source;
+}
+
 /** Back-facing facets use the sums of the strongest front contact; their viscous shares go to the front
  * contacts. */
 static void fold_back(const struct sliding *s, struct contact *contacts, size_t n)
@@ -290,6 +316,8 @@ static void fold_back(const struct sliding *s, struct contact *contacts, size_t 
             back += viscous;
         }
     }
+    if (s->shares.kernel.dim == 3)
+        share_sums(contacts, n);
     double factor = front > 0.0 ? fmax(0.0, 1.0 + back / front) : 1.0;
     for (size_t k = 0; k < n; ++k) {
         if (contacts[k].front) {
@@ -297,7 +325,7 @@ static void fold_back(const struct sliding *s, struct contact *contacts, size_t 
         } else {
             contacts[k].weight[SHARE_VISCOUS] = 0.0;
             if (strongest < n)
-                contacts[k].source = (int32_t)strongest;
+                contacts[k].source = contacts[strongest].source;
         }
     }
 }
@@ -310,7 +338,8 @@ static size_t shares_contacts(const struct boundary *boundary, size_t near, cons
     struct hit *hits = work->hits;
     double at[3] = {x[0], x[1], x[2]}, c[3], normal[3];
     size_t n_hits = sliding_hits(boundary, near, at, hits), nearest, n = 0;
-    if (sliding_penetrated(s, hits, n_hits, at, c, normal, &nearest)) {
+    const bool apart = sliding_penetrated(s, hits, n_hits, at, c, normal, &nearest);
+    if (apart) {
         for (int k = 0; k < 3; ++k)
             at[k] = c[k] + OUTSIDE_EVALUATE * s->shares.dx * normal[k];
         n_hits = sliding_hits(boundary, near, at, hits);
@@ -333,8 +362,10 @@ static size_t shares_contacts(const struct boundary *boundary, size_t near, cons
             work->owners[n++] = hit;
         }
     }
-    for (size_t k = 0; k < n; ++k)
+    for (size_t k = 0; k < n; ++k) {
         sliding_contact_finish(boundary, work->owners[k], &work->contacts[k]);
+        work->contacts[k].apart = apart;
+    }
     fold_back(s, work->contacts, n);
     return n;
 }
@@ -373,27 +404,88 @@ static size_t paper_contacts(const struct boundary *boundary, size_t near, const
         struct contact *contact = &work->contacts[n];
         contact_at_point(contact, &hits[h], x);
         contact->front = true;
+        contact->apart = false;
         contact->source = (int32_t)n++;
         sliding_contact_finish(boundary, &hits[h], contact);
     }
     return n;
 }
 
-/** Sum of the kernel over a block at distance @p d. */
-static double block_kernel_sum(const struct sliding *s, double d)
+/** Sum of the kernel over a layer of a block at distance @p y. */
+static double layer_kernel_sum(const struct sliding *s, double y)
 {
     const struct kernel *kernel = &s->shares.kernel;
     const int q = s->shares.layers;
     const double dx = s->shares.dx;
-    double sum = 0.0;
-    for (int m = 0; m < q; ++m)
-        for (int a = 0; a < (kernel->dim > 1 ? q : 1); ++a)
-            for (int b = 0; b < (kernel->dim > 2 ? q : 1); ++b) {
-                double y = d + (m + 0.5) * dx, r2 = y * y + (double)(a * a + b * b) * dx * dx;
-                if (r2 < kernel->support * kernel->support)
-                    sum += (a ? 2.0 : 1.0) * (b ? 2.0 : 1.0) * kernel_w(kernel, sqrt(r2));
-            }
+    double sum = 0.0, moments[LAYER_MOMENTS];
+    if (kernel->dim == 3 && !s->paper) {
+        facet_shares_layer(&s->shares, y, moments);
+        return moments[LAYER_W];
+    }
+    for (int a = 0; a < (kernel->dim > 1 ? q : 1); ++a)
+        for (int b = 0; b < (kernel->dim > 2 ? q : 1); ++b) {
+            double r2 = y * y + (double)(a * a + b * b) * dx * dx;
+            if (r2 < kernel->support * kernel->support)
+                sum += (a ? 2.0 : 1.0) * (b ? 2.0 : 1.0) * kernel_w(kernel, sqrt(r2));
+        }
     return sum;
+}
+
+/** Sum of the kernel over a block at distance @p d. */
+static double block_kernel_sum(const struct sliding *s, double d)
+{
+    double sum = 0.0;
+    for (int m = 0; m < s->shares.layers; ++m)
+        sum += layer_kernel_sum(s, d + (m + 0.5) * s->shares.dx);
+    return sum;
+}
+
+/** Sum over the wall of share and kernel, of one near particle. */
+static double contacts_kernel_sum(const struct sliding *s, const struct contact *contacts, size_t n)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < n; ++k)
+        sum += contacts[k].weight[SHARE_DENSITY] * block_kernel_sum(s, contacts[k].d);
+    return sum;
+}
+
+/** Let a contact follow its facet: the place of the block and of the closest point, but not the weights. */
+static void contact_follow(const struct boundary *boundary, const double x[3], struct contact *contact)
+{
+    const struct sliding *s = boundary->data;
+    struct hit hit = {.piece = contact->piece, .surface = contact->surface};
+    hit.facet = s->facets[contact->piece->facet].facet;
+    double at[3];
+    for (int k = 0; k < 3; ++k) {
+        hit.shift[k] = contact->shift[k];
+        at[k] = x[k] - hit.shift[k];
+    }
+    const bool front = contact->front;
+    projection_find(&hit.at, hit.piece, at, s->snap);
+    hit.at.d = front ? fmax(0.0, hit.at.d) : fmin(-LEAST_BEHIND * s->shares.dx, hit.at.d);
+    sliding_hit_place(&hit);
+    contact_at_plane(contact, &hit, x);
+    contact->front = front;
+    sliding_contact_finish(boundary, &hit, contact);
+}
+
+/** Contacts of one near particle for surfaces of solids that moved a little since they were found; false if
+ * they must be found again. */
+static bool contacts_follow(struct boundary *boundary, const struct fluid_view *view, size_t near)
+{
+    const struct sliding *s = boundary->data;
+    const uint32_t i = boundary->near[near];
+    const double x[3] = {view->particles->x[0][i], view->particles->x[1][i], view->particles->x[2][i]};
+    struct contact *contacts = &s->contacts[s->contact_start[near]];
+    const size_t n = s->contact_count[near];
+    for (size_t k = 0; k < n; ++k)
+        if (contacts[k].apart)
+            return false;
+    for (size_t k = 0; k < n; ++k)
+        if (contacts[k].piece && boundary->surfaces[contacts[k].surface]->coupled)
+            contact_follow(boundary, x, &contacts[k]);
+    boundary->kernel_sum[near] = contacts_kernel_sum(s, contacts, n);
+    return true;
 }
 
 /** Contacts of one near particle into its slots; returns how many there are, stored only if they fit. */
@@ -406,25 +498,25 @@ static size_t particle_contacts(struct boundary *boundary, const struct fluid_vi
     size_t n = s->paper ? paper_contacts(boundary, near, x, work) : shares_contacts(boundary, near, x, work);
     if (n > s->contact_start[near + 1] - s->contact_start[near])
         return n;
-    double sum = 0.0;
-    for (size_t k = 0; k < n; ++k)
-        sum += work->contacts[k].weight[SHARE_DENSITY] * block_kernel_sum(s, work->contacts[k].d);
     memcpy(&s->contacts[s->contact_start[near]], work->contacts, n * sizeof *work->contacts);
-    boundary->kernel_sum[near] = sum;
+    boundary->kernel_sum[near] = contacts_kernel_sum(s, work->contacts, n);
     return n;
 }
 
-int sliding_prepare(struct boundary *boundary, const struct fluid_view *view)
+int sliding_prepare(struct boundary *boundary, const struct fluid_view *view, bool again)
 {
     struct sliding *s = boundary->data;
     const size_t n = boundary->n_near;
-    sliding_place(boundary);
+    again = again && !s->paper;
+    sliding_place(boundary, again);
     int full;
     do {
         full = 0;
 #pragma omp parallel for schedule(dynamic, 16) reduction(max : full)
         for (size_t near = 0; near < n; ++near) {
             struct sliding_work *work = &s->work[omp_get_thread_num()];
+            if (again && contacts_follow(boundary, view, near))
+                continue;
             size_t count = particle_contacts(boundary, view, near, work);
             s->contact_count[near] = (uint32_t)count;
             if (count > s->contact_start[near + 1] - s->contact_start[near])
@@ -488,7 +580,7 @@ int sliding_put_back(struct boundary *boundary, const struct fluid_view *view, s
         memset(s->pending[k], 0, boundary->surfaces[k]->n_points * sizeof **s->pending);
         memset(s->pending_moment[k], 0, sizeof *s->pending_moment);
     }
-    sliding_place(boundary);
+    sliding_place(boundary, false);
 #pragma omp parallel for schedule(dynamic, 16)
     for (size_t near = 0; near < boundary->n_near; ++near) {
         const uint32_t i = boundary->near[near];

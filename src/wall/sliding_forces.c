@@ -107,6 +107,18 @@ static void contact_pressure(const struct sliding *s, const struct fluid_view *v
     contact->p_slope[2] = view->spacing * dot(e_t, gradient);
 }
 
+/** What the viscous term needs of the sums of another contact. */
+static void contact_borrow(const struct fluid_view *view, const struct contact *source,
+                           struct contact *contact)
+{
+    double to[3];
+    for (int k = 0; k < 3; ++k) {
+        to[k] = contact->c[k] - source->mean_r[k];
+        contact->mean_u[k] = source->mean_u[k];
+    }
+    contact->layer = fmax(dot(to, contact->e_r), LEAST_LAYER * view->spacing);
+}
+
 int sliding_close(struct boundary *boundary, const struct fluid_view *view)
 {
     const struct sliding *s = boundary->data;
@@ -117,8 +129,12 @@ int sliding_close(struct boundary *boundary, const struct fluid_view *view)
         for (size_t k = 0; k < n; ++k)
             if (contacts[k].source == (int32_t)k)
                 contact_sums(s, view, boundary->near[near], &contacts[k]);
-        for (size_t k = 0; k < n; ++k)
-            contact_pressure(s, view, &contacts[contacts[k].source], &contacts[k]);
+        for (size_t k = 0; k < n; ++k) {
+            const struct contact *source = &contacts[contacts[k].source];
+            contact_pressure(s, view, source, &contacts[k]);
+            if (contacts[k].front && source != &contacts[k])
+                contact_borrow(view, source, &contacts[k]);
+        }
     }
     return 0;
 }
@@ -165,8 +181,91 @@ static void pack_block(const struct sliding *s, const struct fluid_view *view, c
     }
 }
 
-int sliding_gather(const struct boundary *boundary, const struct fluid_view *view, size_t near,
-                   struct wall_neighbours *neighbours)
+/** What a neighbour of a contact's block does not share with its place. */
+static void pack_common(const struct contact *contact, double mass, double p, double density, double per_c2,
+                        int32_t source, struct wall_neighbours *out, size_t n)
+{
+    out->p[n] = p;
+    out->rho[n] = p * per_c2 + density;
+    out->volume[n] = mass / out->rho[n];
+    for (int k = 0; k < 3; ++k) {
+        out->u[k][n] = out->u_viscous[k][n] = contact->u[k];
+        out->a[k][n] = contact->a[k];
+        out->normal[k][n] = contact->normal[k];
+    }
+    out->share_density[n] = 0.0;
+    out->share_pressure[n] = contact->weight[SHARE_PRESSURE];
+    out->share_viscous[n] = 0.0;
+    out->source[n] = source;
+}
+
+/** Append two neighbours at one spacing on either side along @p axis that stand for what a layer's pressure
+ * gradient along it does. */
+static void pack_tangents(const struct fluid_view *view, const struct contact *contact,
+                          const double moments[LAYER_MOMENTS], double p, double slope, const double axis[3],
+                          double mass, int32_t source, struct wall_neighbours *out)
+{
+    const double dx = view->spacing, per_c2 = 1.0 / (view->sound_speed * view->sound_speed);
+    for (int side = -1; side <= 1; side += 2) {
+        const size_t n = out->n++;
+        pack_common(contact, mass, p + side * slope, view->density, per_c2, source, out, n);
+        out->r[n] = dx;
+        out->w[n] = 0.0;
+        out->dw[n] = 0.5 * moments[LAYER_TANGENT] / dx;
+        for (int k = 0; k < 3; ++k)
+            out->dx[k][n] = -side * dx * axis[k];
+    }
+}
+
+/** Append the block of a contact by the moments of its layers instead of its particles: one neighbour right
+ * behind the wall for each layer, and four beside it where the pressure varies along the wall. To first order
+ * in that variation the sums are the block's. */
+static void pack_layers(const struct sliding *s, const struct fluid_view *view, const struct contact *contact,
+                        int32_t source, double mass, struct wall_neighbours *out)
+{
+    const double dx = view->spacing, per_c2 = 1.0 / (view->sound_speed * view->sound_speed);
+    double e_s[3], e_t[3];
+    block_axes(view->dim, contact->e_r, e_s, e_t);
+    for (int m = 0; m < s->shares.layers; ++m) {
+        const double height = (m + 0.5) * dx, y = contact->d + height;
+        const double p = contact->p0 + (m + 0.5) * contact->p_slope[0], f = height / contact->layer;
+        double moments[LAYER_MOMENTS];
+        facet_shares_layer(&s->shares, y, moments);
+        if (!(moments[LAYER_NORMAL] < 0.0))
+            break;
+        const size_t n = out->n++;
+        pack_common(contact, mass, p, view->density, per_c2, source, out, n);
+        out->r[n] = y;
+        out->w[n] = moments[LAYER_W];
+        out->dw[n] = moments[LAYER_NORMAL];
+        out->share_density[n] = contact->weight[SHARE_DENSITY];
+        out->share_viscous[n] =
+            contact->weight[SHARE_VISCOUS] * moments[LAYER_VISCOUS] * y / moments[LAYER_NORMAL];
+        for (int k = 0; k < 3; ++k) {
+            out->dx[k][n] = -y * contact->e_r[k];
+            if (contact->weight[SHARE_VISCOUS] != 0.0)
+                out->u_viscous[k][n] = (1.0 + f) * contact->u[k] - f * contact->mean_u[k];
+        }
+        if (contact->p_slope[1] != 0.0)
+            pack_tangents(view, contact, moments, p, contact->p_slope[1], e_s, mass, source, out);
+        if (contact->p_slope[2] != 0.0)
+            pack_tangents(view, contact, moments, p, contact->p_slope[2], e_t, mass, source, out);
+    }
+}
+
+/** Append what stands for the block of a contact in the sweeps: in 3-D its layers, except where walls are as
+ * published. */
+static void pack(const struct sliding *s, const struct fluid_view *view, const struct contact *contact,
+                 int32_t source, double mass, struct wall_neighbours *out)
+{
+    if (view->dim == 3 && !s->paper)
+        pack_layers(s, view, contact, source, mass, out);
+    else
+        pack_block(s, view, contact, source, mass, out);
+}
+
+static int gather(const struct boundary *boundary, const struct fluid_view *view, size_t near, bool unfolded,
+                  struct wall_neighbours *neighbours)
 {
     const struct sliding *s = boundary->data;
     const struct contact *contacts = &s->contacts[s->contact_start[near]];
@@ -175,8 +274,20 @@ int sliding_gather(const struct boundary *boundary, const struct fluid_view *vie
     CALL(wall_neighbours_reserve(neighbours, n * s->block));
     neighbours->n = 0;
     for (size_t k = 0; k < n; ++k)
-        pack_block(s, view, &contacts[k], (int32_t)k, mass, neighbours);
+        (unfolded ? pack_block : pack)(s, view, &contacts[k], (int32_t)k, mass, neighbours);
     return 0;
+}
+
+int sliding_gather(const struct boundary *boundary, const struct fluid_view *view, size_t near,
+                   struct wall_neighbours *neighbours)
+{
+    return gather(boundary, view, near, false, neighbours);
+}
+
+int sliding_unfold(const struct boundary *boundary, const struct fluid_view *view, size_t near,
+                   struct wall_neighbours *neighbours)
+{
+    return gather(boundary, view, near, true, neighbours);
 }
 
 void sliding_react(struct boundary *boundary, size_t near, const struct wall_neighbours *neighbours,
@@ -303,7 +414,7 @@ int sliding_added_mass(struct boundary *boundary, const struct fluid_view *view)
                 status = STATUS_MEMORY;
                 break;
             }
-            pack_block(s, view, contact, (int32_t)k, view->particles->m[i], block);
+            pack(s, view, contact, (int32_t)k, view->particles->m[i], block);
             struct added_mass_contact *out =
                 &boundary->surfaces[contact->surface]->added_mass[contact->tensor];
             memcpy(out->rows, contact->nodes, sizeof out->rows);

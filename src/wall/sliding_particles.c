@@ -196,7 +196,7 @@ static void place_shape(const struct surface *surface, struct sliding_shape *sha
         shape->axis[k] /= sqrt(length);
 }
 
-void sliding_place(struct boundary *boundary)
+void sliding_place(struct boundary *boundary, bool again)
 {
     struct sliding *s = boundary->data;
     if (s->placed && !boundary->moving)
@@ -211,10 +211,11 @@ void sliding_place(struct boundary *boundary)
         const struct surface *surface = boundary->surfaces[facet->surface];
         double x[4][3];
         struct piece pieces[4];
+        const double flat = !again ? s->flat : facet->n_pieces == 1 ? INFINITY : -1.0;
         for (int c = 0; c < 4 && c < facet->n_nodes; ++c)
             memcpy(x[c], surface->now.x[surface->nodes[facet->facet][c]], sizeof x[c]);
         facet->n_pieces =
-            piece_cut(pieces, (int32_t)f, surface->dim, facet->n_nodes, (const double(*)[3])x, s->flat);
+            piece_cut(pieces, (int32_t)f, surface->dim, facet->n_nodes, (const double(*)[3])x, flat);
         memcpy(&s->pieces[facet->pieces], pieces, (size_t)facet->n_pieces * sizeof *pieces);
     }
 }
@@ -410,7 +411,7 @@ static int sliding_list(struct boundary *boundary, const struct fluid_view *view
     size_t n_pairs = 0;
     for (int k = 0; k < 3; ++k)
         s->period[k] = view->grid->periodic[k] ? view->grid->upper[k] - view->grid->lower[k] : 0.0;
-    sliding_place(boundary);
+    sliding_place(boundary, false);
     CALL(memory_grow((void **)&s->stamp, &s->stamp_capacity, n, sizeof *s->stamp));
     CALL(memory_grow((void **)&s->mask, &s->mask_capacity, n, sizeof *s->mask));
     memset(s->stamp, 0, n * sizeof *s->stamp);
@@ -435,6 +436,7 @@ const struct boundary_type boundary_sliding_particles = {
     .prepare = sliding_prepare,
     .close = sliding_close,
     .gather = sliding_gather,
+    .unfold = sliding_unfold,
     .react = sliding_react,
     .load = sliding_load,
     .added_mass = sliding_added_mass,

@@ -28,9 +28,11 @@ struct contact {
     double nodes_weight[4];
     int32_t nodes[4]; /**< points of the surface that take the load, -1 unused */
     int32_t surface;
-    int32_t source; /**< contact of the same particle whose sums are used */
+    int32_t source; /**< contact of the same particle whose sums are used: itself, or another one's source */
     size_t tensor;  /**< where its added mass stands in the surface's list, or SIZE_MAX */
-    bool front;     /**< the particle is on the fluid side */
+    const struct piece *piece; /**< what the wall point lies on; NULL: analytic */
+    bool front;                /**< the particle is on the fluid side */
+    bool apart;                /**< the particle has penetrated: evaluated from another place */
 };
 
 /** The wall point closest to a place, of one candidate. */
@@ -101,8 +103,8 @@ struct sliding {
     uint8_t *put; /**< near particles to be put back */
 };
 
-/** Pieces and shapes from the surfaces' current places. */
-void sliding_place(struct boundary *boundary);
+/** Pieces and shapes from the surfaces' current places; @p again: facets are cut as before. */
+void sliding_place(struct boundary *boundary, bool again);
 
 /** Closest points of all candidates of near particle @p near to the place @p x within the reach. Returns
  * their number. */
@@ -121,10 +123,12 @@ bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t 
 void sliding_contact_finish(const struct boundary *boundary, const struct hit *hit, struct contact *contact);
 
 /** The operations of the treatment (sph/boundary.h) that live in the other files. */
-int sliding_prepare(struct boundary *boundary, const struct fluid_view *view);
+int sliding_prepare(struct boundary *boundary, const struct fluid_view *view, bool again);
 int sliding_put_back(struct boundary *boundary, const struct fluid_view *view, struct particles *particles);
 int sliding_close(struct boundary *boundary, const struct fluid_view *view);
 int sliding_gather(const struct boundary *boundary, const struct fluid_view *view, size_t near,
+                   struct wall_neighbours *neighbours);
+int sliding_unfold(const struct boundary *boundary, const struct fluid_view *view, size_t near,
                    struct wall_neighbours *neighbours);
 void sliding_react(struct boundary *boundary, size_t near, const struct wall_neighbours *neighbours,
                    double *const force[3]);

@@ -176,12 +176,46 @@ static void test_gradient_2d(void **state)
     facet_shares_reset(&shares);
 }
 
+/** The table of layers against sums, and the layers of a block against the block. */
+static void test_layers_3d(void **state)
+{
+    (void)state;
+    static const double ratio[] = {1.0, 1.13};
+    for (size_t t = 0; t < 2; ++t) {
+        struct facet_shares shares;
+        const double dx = 0.0173, volume = dx * dx * dx;
+        assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, ratio[t] * dx, false), dx), 0);
+        double scale[LAYER_MOMENTS], value[LAYER_MOMENTS], exact[LAYER_MOMENTS];
+        facet_shares_layer_exact(&shares, 0.5 * dx, scale);
+        for (double y = 0.5 * dx; y < shares.kernel.support; y += 0.0137 * dx) {
+            facet_shares_layer(&shares, y, value);
+            facet_shares_layer_exact(&shares, y, exact);
+            for (int k = 0; k < LAYER_MOMENTS; ++k)
+                assert_close(value[k] / scale[k], exact[k] / scale[k], 1e-8);
+        }
+        for (double d = 0.0; d < shares.range; d += 0.237 * dx) {
+            double block[SHARES], w = 0.0, normal = 0.0, viscous = 0.0;
+            facet_shares_block(&shares, d, block);
+            for (int m = 0; m < shares.layers; ++m) {
+                facet_shares_layer(&shares, d + (m + 0.5) * dx, value);
+                w += volume * value[LAYER_W];
+                normal -= volume * value[LAYER_NORMAL];
+                viscous -= volume * value[LAYER_VISCOUS];
+            }
+            assert_close(w, block[SHARE_DENSITY], 1e-8);
+            assert_close(normal * dx, block[SHARE_PRESSURE] * dx, 1e-8);
+            assert_close(viscous * dx * dx, block[SHARE_VISCOUS] * dx * dx, 1e-8);
+        }
+        facet_shares_reset(&shares);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reference_2d), cmocka_unit_test(test_table_2d),
         cmocka_unit_test(test_reference_3d), cmocka_unit_test(test_additive_3d),
-        cmocka_unit_test(test_gradient_2d),
+        cmocka_unit_test(test_gradient_2d),  cmocka_unit_test(test_layers_3d),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

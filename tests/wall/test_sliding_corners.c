@@ -227,7 +227,7 @@ static void slide(double degrees, enum corners corners, double height, struct ex
         if (degrees < 180.0 && x * sin(angle) - height * cos(angle) < 0.2)
             break;
         scene.particles->x[0][0] = x;
-        assert_int_equal(boundary_prepare(scene.boundary, &scene.view), 0);
+        assert_int_equal(boundary_prepare(scene.boundary, &scene.view, false), 0);
         scene_wall_sums(&scene, 0, &rho, g);
         if (n > 0) {
             double change = 0.0;

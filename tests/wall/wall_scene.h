@@ -103,7 +103,7 @@ static inline void scene_list(struct scene *scene)
     assert_int_equal(particles_permute(scene->particles, order, scene->particles->n), 0);
     memory_free(order);
     assert_int_equal(scene->boundary->type->list(scene->boundary, &scene->view), 0);
-    assert_int_equal(boundary_prepare(scene->boundary, &scene->view), 0);
+    assert_int_equal(boundary_prepare(scene->boundary, &scene->view, false), 0);
 }
 
 /** Build the boundary, sort, list and prepare. */
