@@ -20,3 +20,9 @@ tests_wall_test_rest_SOURCES = tests/wall/test_rest.c $(test_assembly)
 tests_wall_test_rest_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
 tests_wall_test_rest_LDADD = $(test_libs)
 TESTS += tests/wall/test_rest
+
+check_PROGRAMS += tests/wall/test_rest_3d
+tests_wall_test_rest_3d_SOURCES = tests/wall/test_rest_3d.c $(test_assembly)
+tests_wall_test_rest_3d_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
+tests_wall_test_rest_3d_LDADD = $(test_libs)
+TESTS += tests/wall/test_rest_3d
