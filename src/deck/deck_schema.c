@@ -77,8 +77,9 @@ static const struct schema_attribute fluid_material_attributes[] = {
 
 static const struct schema_attribute solid_material_attributes[] = {
     {"name", SCHEMA_NAME, .required = true, .doc = "name to refer to"},
-    {"law", SCHEMA_CHOICE, .choices = "saint-venant-kirchhoff", .fallback = "saint-venant-kirchhoff",
-     .doc = "stress-strain law"},
+    {"law", SCHEMA_CHOICE, .choices = "saint-venant-kirchhoff|neo-hookean",
+     .fallback = "saint-venant-kirchhoff",
+     .doc = "stress-strain law; neo-hookean for large strains: mu tr E - mu ln J + lambda/2 ln^2 J"},
     {"density", SCHEMA_REAL, .required = true, .range = RANGE_POSITIVE, .unit = "kg/m3",
      .doc = "in the undeformed state"},
     {"young", SCHEMA_REAL, .required = true, .range = RANGE_POSITIVE, .unit = "Pa", .doc = "Young's modulus"},

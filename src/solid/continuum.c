@@ -35,11 +35,6 @@ static int check_material(const struct model *model, const struct model_mesh *de
     CHECK_MESH(kernel, definition->where, "formulation \"%s\" with %s elements: %s",
                element_formulation_name(definition->formulation), element_name(definition->mesh.type),
                reason);
-    CHECK_MESH(
-        law->linear || !kernel->needs_linear, definition->where,
-        "formulation \"%s\" needs a law that is linear in the Green-Lagrange strain, \"%s\" is not; use "
-        "\"saint-venant-kirchhoff\" or formulation \"f-bar\"",
-        element_formulation_name(definition->formulation), law->name);
     return 0;
 }
 

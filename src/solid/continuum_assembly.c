@@ -320,9 +320,9 @@ int continuum_report_inverted(const struct continuum *continuum, double t)
 {
     const int32_t node = element_nodes_of(continuum, continuum->bad_element)[0];
     const double *X = continuum->mesh->X[node];
-    return error_report(
-        STATUS_NUMERICAL,
-        "solid \"%s\": element %zu (first node at reference place %g, %g, %g) is inverted at t = %g s; "
-        "the load or the step is too large for this mesh",
-        continuum->definition->name, continuum->bad_element, X[0], X[1], X[2], t);
+    return error_report(STATUS_NUMERICAL,
+                        "solid \"%s\": element %zu (first node at reference place %g, %g, %g) is inverted or "
+                        "unstable at t = %g s; "
+                        "the load or the step is too large for this mesh",
+                        continuum->definition->name, continuum->bad_element, X[0], X[1], X[2], t);
 }

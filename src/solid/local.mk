@@ -15,6 +15,7 @@ libskerry_la_SOURCES += \
 	src/solid/constitutive/constitutive.c \
 	src/solid/constitutive/constitutive.h \
 	src/solid/constitutive/constitutive_list.h \
+	src/solid/constitutive/neo_hookean.c \
 	src/solid/constitutive/saint_venant_kirchhoff.c \
 	src/solid/element/eas.h \
 	src/solid/element/element.c \

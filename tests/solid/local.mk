@@ -1,4 +1,9 @@
 # Unit tests of src/solid.
+check_PROGRAMS += tests/solid/test_constitutive
+tests_solid_test_constitutive_SOURCES = tests/solid/test_constitutive.c
+tests_solid_test_constitutive_LDADD = $(test_libs)
+TESTS += tests/solid/test_constitutive
+
 check_PROGRAMS += tests/solid/test_element
 tests_solid_test_element_SOURCES = tests/solid/test_element.c
 tests_solid_test_element_LDADD = $(test_libs)

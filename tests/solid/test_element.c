@@ -17,6 +17,11 @@ enum { DATA = 8 * (1 + 24 + 108) + 24 };
 
 static const struct solid_material rubber = {
     .law = "saint-venant-kirchhoff", .density = 1100, .young = 1400, .poisson = 0.4};
+static const struct solid_material valve = {
+    .law = "neo-hookean", .density = 1100, .young = 1400, .poisson = 0.4};
+static const struct solid_material *const materials[] = {&rubber, &valve};
+
+enum { MATERIALS = sizeof materials / sizeof materials[0] };
 
 static struct constitutive law_of(const struct solid_material *material)
 {
@@ -49,9 +54,9 @@ static void awkward_displacement(const struct element_kernel *kernel, double *d)
 static void test_derivatives(void **state)
 {
     (void)state;
-    const struct constitutive law = law_of(&rubber);
-    for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
-        const struct element_kernel *kernel = element_list[k];
+    for (int k = 0; k < MATERIALS * ELEMENT_LIST_SIZE; k++) {
+        const struct constitutive law = law_of(materials[k % MATERIALS]);
+        const struct element_kernel *kernel = element_list[k / MATERIALS];
         const int dof = element_nodes(kernel->type) * element_dim(kernel->type);
         double X[8][3], data[DATA], d[24], f[24], K[576], plus[24], minus[24];
         const double h = 1e-6;
@@ -84,9 +89,9 @@ static void test_derivatives(void **state)
 static void test_rigid_rotation(void **state)
 {
     (void)state;
-    const struct constitutive law = law_of(&rubber);
-    for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
-        const struct element_kernel *kernel = element_list[k];
+    for (int k = 0; k < MATERIALS * ELEMENT_LIST_SIZE; k++) {
+        const struct constitutive law = law_of(materials[k % MATERIALS]);
+        const struct element_kernel *kernel = element_list[k / MATERIALS];
         const int dim = element_dim(kernel->type);
         const double c = cos(2.1), s = sin(2.1);
         double X[8][3], data[DATA], d[24], f[24], stress[6], volume;
@@ -106,14 +111,35 @@ static void test_rigid_rotation(void **state)
     }
 }
 
-/** The stress of a homogeneous deformation by hand: stretch g along x and shear; all formulations agree in
- * the patch. */
+static const double F_hand[3][3] = {{1.13, 0.21, 0}, {0, 0.94, 0}, {0, 0, 1}};
+
+/** All formulations have the given stress and energy density in a patch with deformation F_hand. */
+static void check_homogeneous_deformation(const struct solid_material *material, const double expected[6],
+                                          double density)
+{
+    const struct constitutive law = law_of(material);
+    for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
+        const struct element_kernel *kernel = element_list[k];
+        const int dim = element_dim(kernel->type);
+        double X[8][3], data[DATA], d[24], stress[6], volume;
+        distorted(kernel, X);
+        for (int a = 0; a < element_nodes(kernel->type); a++)
+            for (int i = 0; i < dim; i++)
+                d[a * dim + i] =
+                    F_hand[i][0] * X[a][0] + F_hand[i][1] * X[a][1] + F_hand[i][2] * X[a][2] - X[a][i];
+        assert_int_equal(kernel->prepare((const double(*)[3])X, &law, data), 0);
+        const double energy = kernel->energy(data, &law, d, stress, &volume);
+        assert_true(fabs(energy - density * volume) < 1e-12);
+        for (int i = 0; i < 6; i++)
+            assert_true(fabs(stress[i] - expected[i]) < 1e-10);
+    }
+}
+
+/** The stress of a homogeneous deformation by hand: stretches and shear. */
 static void test_homogeneous_deformation(void **state)
 {
     (void)state;
-    const struct constitutive law = law_of(&rubber);
     const double lambda = 2000, mu = 500; /* of E = 1400, nu = 0.4 */
-    const double F[3][3] = {{1.13, 0.21, 0}, {0, 0.94, 0}, {0, 0, 1}};
     const double exx = 0.5 * (1.13 * 1.13 - 1), eyy = 0.5 * (0.21 * 0.21 + 0.94 * 0.94 - 1),
                  exy = 0.5 * 1.13 * 0.21;
     const double sxx = lambda * (exx + eyy) + 2 * mu * exx, syy = lambda * (exx + eyy) + 2 * mu * eyy;
@@ -124,20 +150,51 @@ static void test_homogeneous_deformation(void **state)
                                 0.94 * (1.13 * sxy + 0.21 * syy) / J,
                                 0,
                                 0};
-    const double density = 0.5 * (sxx * exx + syy * eyy + 2 * sxy * exy);
-    for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
-        const struct element_kernel *kernel = element_list[k];
-        const int dim = element_dim(kernel->type);
-        double X[8][3], data[DATA], d[24], stress[6], volume;
-        distorted(kernel, X);
-        for (int a = 0; a < element_nodes(kernel->type); a++)
+    check_homogeneous_deformation(&rubber, expected, 0.5 * (sxx * exx + syy * eyy + 2 * sxy * exy));
+}
+
+/** The same for the neo-Hookean law from b = F F^T: sigma = (mu (b - I) + lambda ln J I)/J. */
+static void test_homogeneous_neo_hookean(void **state)
+{
+    (void)state;
+    const double lambda = 2000, mu = 500, J = 1.13 * 0.94, log_J = log(J);
+    const double bxx = 1.13 * 1.13 + 0.21 * 0.21, byy = 0.94 * 0.94, bxy = 0.21 * 0.94;
+    const double expected[6] = {(mu * (bxx - 1) + lambda * log_J) / J,
+                                (mu * (byy - 1) + lambda * log_J) / J,
+                                lambda * log_J / J,
+                                mu * bxy / J,
+                                0,
+                                0};
+    check_homogeneous_deformation(&valve, expected,
+                                  0.5 * mu * (bxx + byy - 2) - mu * log_J + 0.5 * lambda * log_J * log_J);
+}
+
+/** A strongly bent, stretched element: the enhanced strains are at the minimum of the energy, so that the
+ * energy is below that of the plain element, and the same when it is computed again. */
+static void test_enhanced_minimum(void **state)
+{
+    (void)state;
+    const struct constitutive law = law_of(&valve);
+    const struct element_kernel *const pairs[2][2] = {{&quad4_eas, &quad4_full}, {&hex8_eas, &hex8_full}};
+    for (int k = 0; k < 2; k++) {
+        const struct element_kernel *eas = pairs[k][0], *full = pairs[k][1];
+        const int dim = element_dim(eas->type), nodes = element_nodes(eas->type);
+        double X[8][3], data[DATA], plain[DATA], d[24], f[24], again[24], K[576];
+        distorted(eas, X);
+        for (int a = 0; a < nodes; a++) {
+            const double angle = 1.1 * X[a][0], radius = 0.8 - 0.8 * X[a][1];
+            const double x[3] = {radius * sin(angle), 0.8 - radius * cos(angle), 1.1 * X[a][2]};
             for (int i = 0; i < dim; i++)
-                d[a * dim + i] = F[i][0] * X[a][0] + F[i][1] * X[a][1] + F[i][2] * X[a][2] - X[a][i];
-        assert_int_equal(kernel->prepare((const double(*)[3])X, &law, data), 0);
-        const double energy = kernel->energy(data, &law, d, stress, &volume);
-        assert_true(fabs(energy - density * volume) < 1e-12);
-        for (int i = 0; i < 6; i++)
-            assert_true(fabs(stress[i] - expected[i]) < 1e-10);
+                d[a * dim + i] = x[i] - X[a][i];
+        }
+        assert_int_equal(eas->prepare((const double(*)[3])X, &law, data), 0);
+        assert_int_equal(full->prepare((const double(*)[3])X, &law, plain), 0);
+        assert_int_equal(eas->forces(data, &law, d, f, K), 0);
+        assert_int_equal(eas->forces(data, &law, d, again, NULL), 0);
+        assert_memory_equal(f, again, (size_t)(nodes * dim) * sizeof *f);
+        const double energy = eas->energy(data, &law, d, NULL, NULL);
+        assert_true(energy > 0.3 * full->energy(plain, &law, d, NULL, NULL));
+        assert_true(energy < 0.999 * full->energy(plain, &law, d, NULL, NULL));
     }
 }
 
@@ -146,7 +203,6 @@ static void test_homogeneous_deformation(void **state)
 static void test_bending_of_one_element(void **state)
 {
     (void)state;
-    const struct constitutive law = law_of(&rubber);
     const double a = 0.8, b = 0.1, k = 1e-4;
     const double X[4][3] = {{-a / 2, -b / 2, 0}, {a / 2, -b / 2, 0}, {a / 2, b / 2, 0}, {-a / 2, b / 2, 0}};
     const double exact = 1400 / (1 - 0.16) * b * b * b / 12 * a * k * k / 2;
@@ -155,18 +211,21 @@ static void test_bending_of_one_element(void **state)
         d[2 * n] = k * X[n][0] * X[n][1];
         d[2 * n + 1] = 0;
     }
-    assert_int_equal(quad4_eas.prepare(X, &law, data), 0);
-    assert_true(fabs(quad4_eas.energy(data, &law, d, NULL, NULL) / exact - 1) < 1e-6);
-    assert_int_equal(quad4_full.prepare(X, &law, data), 0);
-    assert_true(quad4_full.energy(data, &law, d, NULL, NULL) / exact > 10);
+    for (int m = 0; m < MATERIALS; m++) {
+        const struct constitutive law = law_of(materials[m]);
+        assert_int_equal(quad4_eas.prepare(X, &law, data), 0);
+        assert_true(fabs(quad4_eas.energy(data, &law, d, NULL, NULL) / exact - 1) < 1e-6);
+        assert_int_equal(quad4_full.prepare(X, &law, data), 0);
+        assert_true(quad4_full.energy(data, &law, d, NULL, NULL) / exact > 10);
+    }
 }
 
 static void test_inverted_and_degenerate(void **state)
 {
     (void)state;
-    const struct constitutive law = law_of(&rubber);
-    for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
-        const struct element_kernel *kernel = element_list[k];
+    for (int k = 0; k < MATERIALS * ELEMENT_LIST_SIZE; k++) {
+        const struct constitutive law = law_of(materials[k % MATERIALS]);
+        const struct element_kernel *kernel = element_list[k / MATERIALS];
         const int dim = element_dim(kernel->type), nodes = element_nodes(kernel->type);
         double X[8][3], data[DATA], d[24] = {0}, f[24];
         distorted(kernel, X);
@@ -200,6 +259,8 @@ int main(void)
         cmocka_unit_test(test_derivatives),
         cmocka_unit_test(test_rigid_rotation),
         cmocka_unit_test(test_homogeneous_deformation),
+        cmocka_unit_test(test_homogeneous_neo_hookean),
+        cmocka_unit_test(test_enhanced_minimum),
         cmocka_unit_test(test_bending_of_one_element),
         cmocka_unit_test(test_inverted_and_degenerate),
         cmocka_unit_test(test_refused),

@@ -4,11 +4,12 @@
 
 #include "solid/constitutive/constitutive.h"
 
-extern const struct constitutive_law saint_venant_kirchhoff_law;
+extern const struct constitutive_law saint_venant_kirchhoff_law, neo_hookean_law;
 
 /** All constitutive laws: one line each. */
 static const struct constitutive_law *const constitutive_list[] = {
     &saint_venant_kirchhoff_law,
+    &neo_hookean_law,
 };
 
 enum { CONSTITUTIVE_LIST_SIZE = sizeof constitutive_list / sizeof constitutive_list[0] };

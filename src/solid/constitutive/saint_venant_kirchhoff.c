@@ -3,23 +3,7 @@
  */
 #include "solid/constitutive/constitutive.h"
 
-enum { LAMBDA, MU };
-
-static const char *check(const struct solid_material *material)
-{
-    if (!(material->young > 0))
-        return "Young's modulus must be positive";
-    if (!(material->poisson > -1 && material->poisson < 0.5))
-        return "Poisson's ratio must lie between -1 and 0.5";
-    return NULL;
-}
-
-static void prepare(const struct solid_material *material, double *parameters)
-{
-    const double nu = material->poisson;
-    parameters[LAMBDA] = material->young * nu / ((1 + nu) * (1 - 2 * nu));
-    parameters[MU] = material->young / (2 * (1 + nu));
-}
+enum { LAMBDA = CONSTITUTIVE_LAMBDA, MU = CONSTITUTIVE_MU };
 
 static double stress(const double *parameters, int dim, const double *E, double *S, double *D)
 {
@@ -45,7 +29,7 @@ static double stress(const double *parameters, int dim, const double *E, double 
 const struct constitutive_law saint_venant_kirchhoff_law = {
     .name = "saint-venant-kirchhoff",
     .linear = true,
-    .check = check,
-    .prepare = prepare,
+    .check = constitutive_check_elastic,
+    .prepare = constitutive_lame,
     .stress = stress,
 };

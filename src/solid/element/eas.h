@@ -12,10 +12,12 @@
  * E_AB: 4 in 2-D, 9 in 3-D. The integral of M over an element vanishes, so that the patch test is passed; an
  * element that turns keeps E_u = 0 and alpha = 0. For a law linear in E, stationarity gives alpha = -D^-1
  * integral of M^T C E_u in closed form with constant D = integral of M^T C M: no inner iteration, no history.
- * Data: after the points, per point M (voigt x modes) and A = -D^-1 M^T C w (modes x voigt), so that alpha =
- * sum of A E_u. */
+ * For other laws alpha is the minimum of the element's energy for the given displacement, found by Newton's
+ * method from that closed form with the law's tangent at rest: again a function of the displacement alone,
+ * and the force is the derivative of the minimum's energy. Data: after the points, per point M (voigt x
+ * modes) and A = -D^-1 M^T C w (modes x voigt), so that alpha = sum of A E_u. */
 
-enum { EAS_MAX_MODES = 9 };
+enum { EAS_MAX_MODES = 9, EAS_MAX_POINTS = 8, EAS_MAX_DOF = 24, EAS_ITERATIONS = 50 };
 
 ALWAYS_INLINE int eas_modes(const int dim)
 {
@@ -112,12 +114,130 @@ ALWAYS_INLINE int eas_prepare(const int dim, const int nodes, const enum element
     return 0;
 }
 
-/** First pass over the points: F, E_u and alpha. */
-ALWAYS_INLINE int eas_strains(const int dim, const int nodes, const int points, const double *data,
-                              const double *d, double (*F)[9], double (*E)[VOIGT_MAX], double *alpha)
+/** E += M alpha at all points. */
+ALWAYS_INLINE void eas_enhance(const int dim, const int nodes, const int points, const double *data,
+                               const double *alpha, double (*E)[VOIGT_MAX])
 {
     const int n = voigt_size(dim), modes = eas_modes(dim);
     const double *enhanced = data + points * point_stride(dim, nodes);
+    for (int p = 0; p < points; p++)
+        for (int k = 0; k < n; k++)
+            for (int m = 0; m < modes; m++)
+                E[p][k] += enhanced[p * eas_stride(dim) + k * modes + m] * alpha[m];
+}
+
+/** Energy at strains @p E, its gradient @p g and second derivative @p H by alpha; from the tangent at rest if
+ * @p at_rest. NaN where the law has no value. */
+ALWAYS_INLINE double eas_balance(const int dim, const int nodes, const int points, const double *data,
+                                 const struct constitutive *material, const double (*E)[VOIGT_MAX],
+                                 const bool at_rest, double *g, double *H)
+{
+    const int n = voigt_size(dim), modes = eas_modes(dim);
+    const double *enhanced = data + points * point_stride(dim, nodes), rest[VOIGT_MAX] = {0};
+    double energy = 0;
+    for (int m = 0; m < modes; m++)
+        g[m] = 0;
+    for (int m = 0; m < modes * modes; m++)
+        H[m] = 0;
+    for (int p = 0; p < points; p++) {
+        const double w = data[p * point_stride(dim, nodes)], *M = enhanced + p * eas_stride(dim);
+        double S[VOIGT_MAX], D[VOIGT_MAX * VOIGT_MAX], DM[VOIGT_MAX * EAS_MAX_MODES];
+        energy += w * material->law->stress(material->parameters, dim, E[p], S, D);
+        if (isnan(energy))
+            return energy;
+        for (int m = 0; m < modes; m++)
+            for (int k = 0; k < n; k++)
+                g[m] += w * M[k * modes + m] * S[k];
+        if (at_rest)
+            material->law->stress(material->parameters, dim, rest, S, D);
+        for (int k = 0; k < n; k++)
+            for (int m = 0; m < modes; m++) {
+                DM[k * modes + m] = 0;
+                for (int l = 0; l < n; l++)
+                    DM[k * modes + m] += w * D[k * n + l] * M[l * modes + m];
+            }
+        for (int m = 0; m < modes; m++)
+            for (int k = 0; k < n; k++)
+                for (int o = 0; o < modes; o++)
+                    H[m * modes + o] += M[k * modes + m] * DM[k * modes + o];
+    }
+    return energy;
+}
+
+/** The strains @p dE of Newton's step for alpha; where the energy is not convex, of a step down with the
+ * stiffness at rest. Returns the largest of them and whether the step is Newton's. */
+ALWAYS_INLINE double eas_newton_step(const int dim, const int nodes, const int points, const double *data,
+                                     const struct constitutive *material, const double (*E)[VOIGT_MAX],
+                                     double *g, double *H, double (*dE)[VOIGT_MAX], bool *convex)
+{
+    const int modes = eas_modes(dim);
+    double length = 0, step[EAS_MAX_MODES];
+    for (int m = 0; m < modes; m++)
+        step[m] = -g[m];
+    *convex = eas_solve(modes, H, 1, step);
+    if (!*convex) {
+        eas_balance(dim, nodes, points, data, material, E, true, g, H);
+        for (int m = 0; m < modes; m++)
+            step[m] = -g[m];
+        eas_solve(modes, H, 1, step); /* positive: prepare has solved with it */
+    }
+    memset(dE, 0, EAS_MAX_POINTS * sizeof *dE);
+    eas_enhance(dim, nodes, points, data, step, dE);
+    for (int p = 0; p < points; p++)
+        for (int k = 0; k < voigt_size(dim); k++)
+            length = fmax(length, fabs(dE[p][k]));
+    return length;
+}
+
+/** Strains at the minimum of the energy, from the guess @p E; @p E_u: without enhancement. The step after one
+ * shorter than 1e-9 would be of the order of its square: none is needed. STATUS_NUMERICAL (not reported) when
+ * there is no minimum. */
+ALWAYS_INLINE int eas_minimise(const int dim, const int nodes, const int points, const double *data,
+                               const struct constitutive *material, const double (*E_u)[VOIGT_MAX],
+                               double (*E)[VOIGT_MAX])
+{
+    double g[EAS_MAX_MODES], H[EAS_MAX_MODES * EAS_MAX_MODES], dE[EAS_MAX_POINTS][VOIGT_MAX];
+    double trial[EAS_MAX_POINTS][VOIGT_MAX];
+    double energy =
+        eas_balance(dim, nodes, points, data, material, (const double(*)[VOIGT_MAX])E, false, g, H);
+    if (isnan(energy)) { /* the guess went too far */
+        memcpy(E, E_u, (size_t)points * sizeof *E);
+        energy = eas_balance(dim, nodes, points, data, material, E_u, false, g, H);
+    }
+    for (int iteration = 0; iteration < EAS_ITERATIONS && !isnan(energy); iteration++) {
+        bool convex, better = false;
+        const double length = eas_newton_step(dim, nodes, points, data, material,
+                                              (const double(*)[VOIGT_MAX])E, g, H, dE, &convex);
+        const bool last = convex && length < 1e-9;
+        for (double scale = 1; !better && scale > 1e-6; scale *= 0.5) {
+            for (int p = 0; p < points; p++)
+                for (int k = 0; k < voigt_size(dim); k++)
+                    trial[p][k] = E[p][k] + scale * dE[p][k];
+            if (last)
+                break;
+            const double value = eas_balance(dim, nodes, points, data, material,
+                                             (const double(*)[VOIGT_MAX])trial, false, g, H);
+            /* the energy of short steps differs by less than its rounding */
+            better = value <= energy || (convex && length < 1e-5 && !isnan(value));
+            energy = better ? value : energy;
+        }
+        if (!last && !better)
+            return STATUS_NUMERICAL;
+        memcpy(E, trial, (size_t)points * sizeof *E);
+        if (last)
+            return 0;
+    }
+    return STATUS_NUMERICAL;
+}
+
+/** First pass over the points: F and the enhanced strains. */
+ALWAYS_INLINE int eas_strains(const int dim, const int nodes, const int points, const double *data,
+                              const struct constitutive *material, const double *d, double (*F)[9],
+                              double (*E)[VOIGT_MAX])
+{
+    const int n = voigt_size(dim), modes = eas_modes(dim);
+    const double *enhanced = data + points * point_stride(dim, nodes);
+    double alpha[EAS_MAX_MODES], E_u[EAS_MAX_POINTS][VOIGT_MAX];
     for (int m = 0; m < modes; m++)
         alpha[m] = 0;
     for (int p = 0; p < points; p++) {
@@ -129,25 +249,55 @@ ALWAYS_INLINE int eas_strains(const int dim, const int nodes, const int points, 
             for (int k = 0; k < n; k++)
                 alpha[m] += A[m * n + k] * E[p][k];
     }
-    for (int p = 0; p < points; p++)
-        for (int k = 0; k < n; k++)
-            for (int m = 0; m < modes; m++)
-                E[p][k] += enhanced[p * eas_stride(dim) + k * modes + m] * alpha[m];
+    memcpy(E_u, E, (size_t)points * sizeof *E);
+    eas_enhance(dim, nodes, points, data, alpha, E);
+    if (material->law->linear)
+        return 0;
+    return eas_minimise(dim, nodes, points, data, material, (const double(*)[VOIGT_MAX])E_u, E);
+}
+
+/** A = -H^-1 w M^T D (modes x voigt) at all points, with H for the strains @p E. STATUS_NUMERICAL when H is
+ * not positive. */
+ALWAYS_INLINE int eas_condense(const int dim, const int nodes, const int points, const double *data,
+                               const struct constitutive *material, const double (*E)[VOIGT_MAX],
+                               double (*A)[EAS_MAX_MODES * VOIGT_MAX])
+{
+    const int n = voigt_size(dim), modes = eas_modes(dim);
+    double g[EAS_MAX_MODES], H[EAS_MAX_MODES * EAS_MAX_MODES];
+    eas_balance(dim, nodes, points, data, material, E, false, g, H);
+    for (int p = 0; p < points; p++) {
+        const double w = data[p * point_stride(dim, nodes)];
+        const double *M = data + points * point_stride(dim, nodes) + p * eas_stride(dim);
+        double S[VOIGT_MAX], D[VOIGT_MAX * VOIGT_MAX], copy[EAS_MAX_MODES * EAS_MAX_MODES];
+        material->law->stress(material->parameters, dim, E[p], S, D);
+        for (int m = 0; m < modes; m++)
+            for (int k = 0; k < n; k++) {
+                A[p][m * n + k] = 0;
+                for (int l = 0; l < n; l++)
+                    A[p][m * n + k] -= w * M[l * modes + m] * D[l * n + k];
+            }
+        memcpy(copy, H, sizeof copy);
+        if (!eas_solve(modes, copy, n, A[p]))
+            return STATUS_NUMERICAL;
+    }
     return 0;
 }
 
 /** K from the points' B: with R = dalpha/dd = sum of A B, K = sum of w B^T C (B + M R) and the geometric
  * part. */
-ALWAYS_INLINE void eas_stiffness(const int dim, const int nodes, const int points, const double *data,
-                                 const struct constitutive *material, double (*F)[9], double (*E)[VOIGT_MAX],
-                                 double *K)
+ALWAYS_INLINE int eas_stiffness(const int dim, const int nodes, const int points, const double *data,
+                                const struct constitutive *material, double (*F)[9], double (*E)[VOIGT_MAX],
+                                double *K)
 {
     const int n = voigt_size(dim), modes = eas_modes(dim), dof = nodes * dim;
     const double *enhanced = data + points * point_stride(dim, nodes);
-    double B[8][VOIGT_MAX * ELEMENT_MAX_DOF], R[EAS_MAX_MODES * ELEMENT_MAX_DOF] = {0};
+    double B[EAS_MAX_POINTS][VOIGT_MAX * EAS_MAX_DOF], R[EAS_MAX_MODES * EAS_MAX_DOF] = {0};
+    double condensed[EAS_MAX_POINTS][EAS_MAX_MODES * VOIGT_MAX];
+    if (!material->law->linear)
+        CALL(eas_condense(dim, nodes, points, data, material, (const double(*)[VOIGT_MAX])E, condensed));
     memset(K, 0, (size_t)(dof * dof) * sizeof *K);
     for (int p = 0; p < points; p++) {
-        const double *A = enhanced + p * eas_stride(dim) + n * modes;
+        const double *A = material->law->linear ? enhanced + p * eas_stride(dim) + n * modes : condensed[p];
         strain_operator(dim, nodes, F[p], data + p * point_stride(dim, nodes) + 1, B[p]);
         for (int m = 0; m < modes; m++)
             for (int k = 0; k < n; k++)
@@ -156,7 +306,7 @@ ALWAYS_INLINE void eas_stiffness(const int dim, const int nodes, const int point
     }
     for (int p = 0; p < points; p++) {
         const double w = data[p * point_stride(dim, nodes)], *M = enhanced + p * eas_stride(dim);
-        double S[VOIGT_MAX], D[VOIGT_MAX * VOIGT_MAX], total[VOIGT_MAX * ELEMENT_MAX_DOF];
+        double S[VOIGT_MAX], D[VOIGT_MAX * VOIGT_MAX], total[VOIGT_MAX * EAS_MAX_DOF];
         material->law->stress(material->parameters, dim, E[p], S, D);
         memcpy(total, B[p], sizeof total);
         for (int k = 0; k < n; k++)
@@ -166,13 +316,14 @@ ALWAYS_INLINE void eas_stiffness(const int dim, const int nodes, const int point
         add_material_stiffness(dim, nodes, w, B[p], D, total, K);
         add_geometric_stiffness(dim, nodes, w, S, data + p * point_stride(dim, nodes) + 1, K);
     }
+    return 0;
 }
 
 ALWAYS_INLINE int eas_forces(const int dim, const int nodes, const int points, const double *data,
                              const struct constitutive *material, const double *d, double *f, double *K)
 {
-    double F[8][9], E[8][VOIGT_MAX], alpha[EAS_MAX_MODES];
-    CALL(eas_strains(dim, nodes, points, data, d, F, E, alpha));
+    double F[EAS_MAX_POINTS][9], E[EAS_MAX_POINTS][VOIGT_MAX];
+    CALL(eas_strains(dim, nodes, points, data, material, d, F, E));
     memset(f, 0, (size_t)(nodes * dim) * sizeof *f);
     for (int p = 0; p < points; p++) {
         double S[VOIGT_MAX];
@@ -180,19 +331,17 @@ ALWAYS_INLINE int eas_forces(const int dim, const int nodes, const int points, c
         add_force(dim, nodes, data[p * point_stride(dim, nodes)], F[p], S,
                   data + p * point_stride(dim, nodes) + 1, f);
     }
-    if (K)
-        eas_stiffness(dim, nodes, points, data, material, F, E, K);
-    return 0;
+    return K ? eas_stiffness(dim, nodes, points, data, material, F, E, K) : 0;
 }
 
 ALWAYS_INLINE double eas_energy(const int dim, const int nodes, const int points, const double *data,
                                 const struct constitutive *material, const double *d, double *stress,
                                 double *volume)
 {
-    double F[8][9], E[8][VOIGT_MAX], alpha[EAS_MAX_MODES], energy = 0, total = 0;
+    double F[EAS_MAX_POINTS][9], E[EAS_MAX_POINTS][VOIGT_MAX], energy = 0, total = 0;
     if (stress)
         memset(stress, 0, 6 * sizeof *stress);
-    if (eas_strains(dim, nodes, points, data, d, F, E, alpha))
+    if (eas_strains(dim, nodes, points, data, material, d, F, E))
         return NAN;
     for (int p = 0; p < points; p++) {
         const double w = data[p * point_stride(dim, nodes)];

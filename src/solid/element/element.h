@@ -16,15 +16,14 @@ enum { ELEMENT_MAX_NODES = 8, ELEMENT_MAX_DOF = 24 };
 struct element_kernel {
     enum element_type type;
     enum solid_formulation formulation;
-    int n_points;      /**< quadrature points */
-    size_t data_size;  /**< doubles of precomputed data per element */
-    bool needs_linear; /**< works with laws that are linear in E only */
+    int n_points;     /**< quadrature points */
+    size_t data_size; /**< doubles of precomputed data per element */
     /** Precompute from the reference places @p X (nodes rows of 3). STATUS_DECK (not reported) when the
      * Jacobian is not positive at a quadrature point. */
     int (*prepare)(const double (*X)[3], const struct constitutive *material, double *data);
     /** Internal force @p f and, unless NULL, its derivative @p K by @p d (row by row; symmetric) at
-     * displacement @p d. STATUS_NUMERICAL (not reported) when det F <= 0 at a point: the element is inverted.
-     */
+     * displacement @p d. STATUS_NUMERICAL (not reported) when det F <= 0 at a point: the element is inverted;
+     * or when the law has no stable state of the enhanced strains. */
     int (*forces)(const double *data, const struct constitutive *material, const double *d, double *f,
                   double *K);
     /** Elastic energy (J; 2-D: J/m); Cauchy stress XX YY ZZ XY YZ XZ averaged over the points into @p stress

@@ -134,7 +134,8 @@ ALWAYS_INLINE int f_bar_forces(const int dim, const int nodes, const int points,
         const double *G = data + p * point_stride(dim, nodes) + 1;
         double E[VOIGT_MAX], S[VOIGT_MAX], D[VOIGT_MAX * VOIGT_MAX], SC = 0;
         f_bar_strain(dim, &point[p], E);
-        material->law->stress(material->parameters, dim, E, S, K ? D : NULL);
+        if (isnan(material->law->stress(material->parameters, dim, E, S, K ? D : NULL)))
+            return STATUS_NUMERICAL;
         add_force(dim, nodes, w * point[p].r2, point[p].F, S, G, f);
         for (int k = 0; k < voigt_size(dim); k++)
             SC += S[k] * point[p].C[k];

@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "solid/element/kinematics.h"
 
+#include <math.h>
+
 /** Displacement elements with full integration: f = integral of B^T S (paper 000 eq. 26). First-order ones
  * lock in bending and near incompressibility. */
 
@@ -22,7 +24,8 @@ ALWAYS_INLINE int full_forces(const int dim, const int nodes, const int points, 
         if (!(deformation_gradient(dim, nodes, G, d, F) > 0))
             return STATUS_NUMERICAL;
         green_lagrange(dim, F, E);
-        material->law->stress(material->parameters, dim, E, S, K ? D : NULL);
+        if (isnan(material->law->stress(material->parameters, dim, E, S, K ? D : NULL)))
+            return STATUS_NUMERICAL;
         add_force(dim, nodes, w, F, S, G, f);
         if (!K)
             continue;

@@ -78,7 +78,6 @@ const struct element_kernel hex8_eas = {
     .formulation = SOLID_EAS,
     .n_points = POINTS,
     .data_size = POINTS * (1 + NODES * DIM + 2 * 6 * 9),
-    .needs_linear = true,
     .prepare = eas_prepare_kernel,
     .forces = eas_forces_kernel,
     .energy = eas_energy_kernel,
