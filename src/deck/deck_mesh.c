@@ -21,16 +21,33 @@ static enum element_type element_type_of(struct deck *deck, const struct deck_no
     return type;
 }
 
+/** A solid's elements fill space. */
+static void check_dimension(struct deck *deck, const struct deck_node *node, enum element_type type)
+{
+    const int dim = deck->model->dim;
+    if (element_dim(type) != dim)
+        deck_error(deck, node, "type", "%s elements do not fill %d-D space; use %s", element_name(type), dim,
+                   dim == 2 ? "quad4, quad8, quad9, tri3 or tri6" : "hex8, hex20, hex27, tet4 or tet10");
+}
+
 static void read_grid(struct deck *deck, const struct deck_node *node, struct mesh *mesh)
 {
+    const enum element_type type = deck_has(node, "type")  ? element_type_of(deck, node)
+                                   : deck->model->dim == 3 ? ELEMENT_HEX8
+                                                           : ELEMENT_QUAD4;
     double lower[3], upper[3], nodes = 1.0;
     int cells[3];
+    if (type == ELEMENT_TYPES) { // noted already
+        deck->n_problems++;
+        return;
+    }
     size_t before = deck->n_problems;
+    check_dimension(deck, node, type);
     deck_vector(deck, node, "lower", lower);
     deck_vector(deck, node, "upper", upper);
     deck_cells(deck, node, "cells", cells);
     for (int d = 0; d < deck->model->dim && deck->n_problems == before; d++) {
-        nodes *= cells[d] + 1.0;
+        nodes *= (element_is_quadratic(type) ? 2.0 : 1.0) * cells[d] + 1.0;
         if (!(lower[d] < upper[d]))
             deck_error(deck, node, "upper",
                        "upper corner %.9g is not above lower corner %.9g in direction %c", upper[d], lower[d],
@@ -41,6 +58,8 @@ static void read_grid(struct deck *deck, const struct deck_node *node, struct me
     if (deck->n_problems > before)
         return;
     int status = mesh_create_grid(mesh, deck->model->dim, lower, upper, cells);
+    if (!status && type != mesh->type)
+        status = mesh_convert(mesh, type);
     if (status)
         deck->status = status;
 }
@@ -81,23 +100,18 @@ static double (*read_nodes(struct deck *deck, const struct deck_node *node, size
     return points;
 }
 
-/** Determinant of the map from natural coordinates at the element's centre. */
-static double element_volume(const struct mesh *mesh, size_t e)
+/** Whether the map from natural coordinates keeps its orientation at the element's centre, and at the nodes
+ * of a quadratic one, whose edges may fold back. */
+static bool element_is_proper(const struct mesh *mesh, size_t e)
 {
-    const bool simplex = mesh->type == ELEMENT_TRI3 || mesh->type == ELEMENT_TET4;
-    const double third = simplex ? 0.25 : 0.0, xi[3] = {third, third, third};
-    double N[8], dN[8][3], J[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    element_shape(mesh->type, xi, N, dN);
-    for (int i = 0; i < mesh->dim; i++)
-        for (int j = 0; j < mesh->dim; j++) {
-            J[i][j] = 0.0;
-            for (int k = 0; k < mesh->nodes_per_element; k++)
-                J[i][j] += mesh->X[mesh->connectivity[e * (size_t)mesh->nodes_per_element + (size_t)k]][i] *
-                           dN[k][j];
-        }
-    return J[0][0] * (J[1][1] * J[2][2] - J[1][2] * J[2][1]) -
-           J[0][1] * (J[1][0] * J[2][2] - J[1][2] * J[2][0]) +
-           J[0][2] * (J[1][0] * J[2][1] - J[1][1] * J[2][0]);
+    const double third = element_is_simplex(mesh->type) ? 0.25 : 0.0, centre[3] = {third, third, third};
+    bool proper = mesh_jacobian(mesh, e, centre) > 0.0;
+    for (int a = 0; element_is_quadratic(mesh->type) && a < mesh->nodes_per_element; a++) {
+        double xi[3];
+        element_node(mesh->type, a, xi);
+        proper = proper && mesh_jacobian(mesh, e, xi) > 0.0;
+    }
+    return proper;
 }
 
 static void read_inline(struct deck *deck, const struct deck_node *node, struct mesh *mesh)
@@ -111,19 +125,19 @@ static void read_inline(struct deck *deck, const struct deck_node *node, struct 
         return;
     }
     mesh->nodes_per_element = element_nodes(mesh->type);
-    if (element_dim(mesh->type) != mesh->dim) {
-        deck_error(deck, elements, "type", "%s elements do not fill %d-D space; use %s",
-                   element_name(mesh->type), mesh->dim, mesh->dim == 2 ? "tri3 or quad4" : "tet4 or hex8");
+    size_t before = deck->n_problems;
+    check_dimension(deck, elements, mesh->type);
+    if (deck->n_problems > before)
         return;
-    }
     mesh->X = read_nodes(deck, nodes, &mesh->n_nodes);
     if (mesh->X)
         mesh->connectivity = read_connectivity(deck, elements, (size_t)mesh->nodes_per_element, mesh->n_nodes,
                                                &mesh->n_elements);
     for (size_t e = 0; mesh->connectivity && e < mesh->n_elements; e++)
-        if (!(element_volume(mesh, e) > 0.0)) {
+        if (!element_is_proper(mesh, e)) {
             deck_error(deck, elements, NULL,
-                       "element %zu is inside out or flat: its nodes go counter-clockwise (VTK order)", e);
+                       "element %zu is inside out or flat: its nodes go counter-clockwise (VTK order)%s", e,
+                       element_is_quadratic(mesh->type) ? ", those of an edge near its middle" : "");
             return;
         }
 }
@@ -299,7 +313,7 @@ void deck_read_facets(struct deck *deck, const struct deck_node *node, struct fa
         return;
     }
     const int dim = deck->model->dim, corners = element_nodes(type);
-    if (element_dim(type) != dim - 1) {
+    if (element_dim(type) != dim - 1 || element_is_quadratic(type)) {
         deck_error(deck, elements, "type", "facets of a %d-D deck are %s", dim,
                    dim == 2   ? "line2"
                    : dim == 3 ? "tri3 or quad4"

@@ -173,7 +173,7 @@ static const struct schema_attribute mesh_attributes[] = {
     {"material", SCHEMA_REFERENCE, .required = true, .doc = "a <solid> of <materials>"},
     {"formulation", SCHEMA_CHOICE, .choices = "full|f-bar|eas", .fallback = "eas",
      .doc = "element technology: full integration, F-bar (nearly incompressible), enhanced assumed strain "
-            "(bending)"},
+            "(bending); the latter two for quad4 and hex8"},
     {"rho-infinity", SCHEMA_REAL, .range = RANGE_FRACTION, .fallback = "0.8",
      .doc = "spectral radius at infinite frequency of the generalised-alpha method; 1: no damping"},
     {"newton-tolerance", SCHEMA_REAL, .range = RANGE_POSITIVE, .fallback = "1e-8",
@@ -185,17 +185,22 @@ static const struct schema_child mesh_children[] = {
     {SCHEMA_SET, 0, 0},        {SCHEMA_SUPPORT, 0, 0}, {SCHEMA_LOAD, 0, 0},
     {SCHEMA_BODY_FORCE, 0, 1}, {SCHEMA_INITIAL, 0, 1}, {SCHEMA_ELEMENTS_END, 0, 0}};
 
+#define SOLID_ELEMENTS "tri3|quad4|tet4|hex8|tri6|quad8|quad9|tet10|hex20|hex27"
+
 static const struct schema_attribute grid_attributes[] = {
     {"lower", SCHEMA_VECTOR, .required = true, .unit = "m", .doc = "lower corner"},
     {"upper", SCHEMA_VECTOR, .required = true, .unit = "m", .doc = "upper corner"},
     {"cells", SCHEMA_CELLS, .required = true, .range = RANGE_POSITIVE,
-     .doc = "number of elements in each direction"},
+     .doc = "number of elements in each direction; simplices: of boxes that are cut into 2 or 6 of them"},
+    {"type", SCHEMA_CHOICE, .choices = SOLID_ELEMENTS,
+     .doc = "kind of all elements; default: quad4 or hex8; quadratic ones (tri6, quad8, quad9, tet10, hex20, "
+            "hex27) need formulation=\"full\""},
     {0}};
 
-static const struct schema_attribute elements_attributes[] = {{"type", SCHEMA_CHOICE, .required = true,
-                                                               .choices = "line2|tri3|quad4|tet4|hex8",
-                                                               .doc = "kind of all elements"},
-                                                              {0}};
+static const struct schema_attribute elements_attributes[] = {
+    {"type", SCHEMA_CHOICE, .required = true, .choices = "line2|" SOLID_ELEMENTS,
+     .doc = "kind of all elements; nodes in VTK order"},
+    {0}};
 
 static const struct schema_attribute set_attributes[] = {
     {"name", SCHEMA_NAME, .required = true, .doc = "name to refer to"},
@@ -250,7 +255,7 @@ static const struct schema_child surface_children[] = {{SCHEMA_SKIN, 0, 0},
 static const struct schema_attribute skin_attributes[] = {
     {"mesh", SCHEMA_REFERENCE, .required = true, .doc = "a <mesh>"},
     {"exclude", SCHEMA_REFERENCE,
-     .doc = "node set of the mesh: facets all of whose nodes belong to it are left out"},
+     .doc = "node set of the mesh: sides of elements all of whose nodes belong to it are left out"},
     {0}};
 
 static const struct schema_attribute arc_attributes[] = {
@@ -473,7 +478,8 @@ static const struct schema_element elements[SCHEMA_ELEMENTS_END] =
      [SCHEMA_MESHES] = {"meshes", "meshes", "deformable solids", .children = meshes_children},
      [SCHEMA_MESH] = {"mesh", "mesh", "a solid of finite elements: a <grid>, or <nodes> and <elements>",
                       .attributes = mesh_attributes, .children = mesh_children},
-     [SCHEMA_GRID] = {"grid", "grid", "a box cut into quad4 (2-D) or hex8 (3-D) elements",
+     [SCHEMA_GRID] = {"grid", "grid",
+                      "a box cut into elements, quad4 (2-D) or hex8 (3-D) unless told otherwise",
                       .attributes = grid_attributes},
      [SCHEMA_NODES] = {"nodes", "nodes", "places of nodes, numbered from 0",
                        .text = "coordinates, dim numbers for each node, in m"},

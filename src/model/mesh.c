@@ -8,56 +8,123 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** What an element type is; faces are listed with the normal out of the element, struct facets' orientation.
- */
+/** What an element type is; its sides are listed with the normal out of the element, struct facets'
+ * orientation, in VTK order. */
 struct element_description {
     const char *name;
     int dim, nodes, vtk;
-    int n_faces, nodes_per_face;
-    int faces[6][4];
+    int n_sides;
+    enum element_type side;
+    int sides[6][SIDE_MAX_NODES];
 };
 
 static const struct element_description descriptions[ELEMENT_TYPES] = {
     [ELEMENT_LINE2] = {.name = "line2", .dim = 1, .nodes = 2, .vtk = 3},
+    [ELEMENT_LINE3] = {.name = "line3", .dim = 1, .nodes = 3, .vtk = 21},
     [ELEMENT_TRI3] = {.name = "tri3",
                       .dim = 2,
                       .nodes = 3,
                       .vtk = 5,
-                      .n_faces = 3,
-                      .nodes_per_face = 2,
-                      .faces = {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 0, -1, -1}}},
+                      .n_sides = 3,
+                      .side = ELEMENT_LINE2,
+                      .sides = {{0, 1}, {1, 2}, {2, 0}}},
+    [ELEMENT_TRI6] = {.name = "tri6",
+                      .dim = 2,
+                      .nodes = 6,
+                      .vtk = 22,
+                      .n_sides = 3,
+                      .side = ELEMENT_LINE3,
+                      .sides = {{0, 1, 3}, {1, 2, 4}, {2, 0, 5}}},
     [ELEMENT_QUAD4] = {.name = "quad4",
                        .dim = 2,
                        .nodes = 4,
                        .vtk = 9,
-                       .n_faces = 4,
-                       .nodes_per_face = 2,
-                       .faces = {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 3, -1, -1}, {3, 0, -1, -1}}},
+                       .n_sides = 4,
+                       .side = ELEMENT_LINE2,
+                       .sides = {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
+    [ELEMENT_QUAD8] = {.name = "quad8",
+                       .dim = 2,
+                       .nodes = 8,
+                       .vtk = 23,
+                       .n_sides = 4,
+                       .side = ELEMENT_LINE3,
+                       .sides = {{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},
+    [ELEMENT_QUAD9] = {.name = "quad9",
+                       .dim = 2,
+                       .nodes = 9,
+                       .vtk = 28,
+                       .n_sides = 4,
+                       .side = ELEMENT_LINE3,
+                       .sides = {{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},
     [ELEMENT_TET4] = {.name = "tet4",
                       .dim = 3,
                       .nodes = 4,
                       .vtk = 10,
-                      .n_faces = 4,
-                      .nodes_per_face = 3,
-                      .faces = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}}},
+                      .n_sides = 4,
+                      .side = ELEMENT_TRI3,
+                      .sides = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}},
+    [ELEMENT_TET10] =
+        {.name = "tet10",
+         .dim = 3,
+         .nodes = 10,
+         .vtk = 24,
+         .n_sides = 4,
+         .side = ELEMENT_TRI6,
+         .sides = {{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {0, 3, 2, 7, 9, 6}}},
     [ELEMENT_HEX8] =
         {.name = "hex8",
          .dim = 3,
          .nodes = 8,
          .vtk = 12,
-         .n_faces = 6,
-         .nodes_per_face = 4,
-         .faces = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+         .n_sides = 6,
+         .side = ELEMENT_QUAD4,
+         .sides = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+    [ELEMENT_HEX20] = {.name = "hex20",
+                       .dim = 3,
+                       .nodes = 20,
+                       .vtk = 25,
+                       .n_sides = 6,
+                       .side = ELEMENT_QUAD8,
+                       .sides = {{0, 3, 2, 1, 11, 10, 9, 8},
+                                 {4, 5, 6, 7, 12, 13, 14, 15},
+                                 {0, 1, 5, 4, 8, 17, 12, 16},
+                                 {1, 2, 6, 5, 9, 18, 13, 17},
+                                 {2, 3, 7, 6, 10, 19, 14, 18},
+                                 {3, 0, 4, 7, 11, 16, 15, 19}}},
+    [ELEMENT_HEX27] = {.name = "hex27",
+                       .dim = 3,
+                       .nodes = 27,
+                       .vtk = 29,
+                       .n_sides = 6,
+                       .side = ELEMENT_QUAD9,
+                       .sides = {{0, 3, 2, 1, 11, 10, 9, 8, 24},
+                                 {4, 5, 6, 7, 12, 13, 14, 15, 25},
+                                 {0, 1, 5, 4, 8, 17, 12, 16, 22},
+                                 {1, 2, 6, 5, 9, 18, 13, 17, 21},
+                                 {2, 3, 7, 6, 10, 19, 14, 18, 23},
+                                 {3, 0, 4, 7, 11, 16, 15, 19, 20}}},
 };
 
-/** Corners of quad4 (first four) and hex8 in natural coordinates. */
-static const double corners[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                                     {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+/** Straight pieces of a side, through its nodes. */
+struct side_pieces {
+    int corners, n;
+    int nodes[5][4];
+};
 
-/** A face of an element with its nodes in ascending order, to find the faces that occur only once. */
-struct face_key {
+static const struct side_pieces pieces[ELEMENT_TYPES] = {
+    [ELEMENT_LINE2] = {2, 1, {{0, 1, -1, -1}}},
+    [ELEMENT_TRI3] = {3, 1, {{0, 1, 2, -1}}},
+    [ELEMENT_QUAD4] = {4, 1, {{0, 1, 2, 3}}},
+    [ELEMENT_LINE3] = {2, 2, {{0, 2, -1, -1}, {2, 1, -1, -1}}},
+    [ELEMENT_TRI6] = {3, 4, {{0, 3, 5, -1}, {3, 1, 4, -1}, {5, 4, 2, -1}, {3, 4, 5, -1}}},
+    [ELEMENT_QUAD8] = {4, 5, {{0, 4, 7, -1}, {4, 1, 5, -1}, {5, 2, 6, -1}, {6, 3, 7, -1}, {4, 5, 6, 7}}},
+    [ELEMENT_QUAD9] = {4, 4, {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}}},
+};
+
+/** A side of an element with its corners in ascending order, to find the sides that occur only once. */
+struct side_key {
     int32_t nodes[4];
-    size_t face; /**< element * faces per element + face */
+    size_t side; /**< element * sides per element + side */
 };
 
 int element_dim(enum element_type type)
@@ -80,43 +147,28 @@ const char *element_name(enum element_type type)
     return descriptions[type].name;
 }
 
-/** N = product of (1 + s_d xi_d) / 2 over the dimensions. */
-static void shape_tensor_product(int dim, int nodes, const double xi[3], double *N, double (*dN)[3])
+enum element_type side_type(int dim, const int32_t nodes[SIDE_MAX_NODES])
 {
-    for (int n = 0; n < nodes; n++) {
-        double factor[3] = {1, 1, 1};
-        for (int d = 0; d < dim; d++)
-            factor[d] = 0.5 * (1 + corners[n][d] * xi[d]);
-        N[n] = factor[0] * factor[1] * factor[2];
-        if (!dN)
-            continue;
-        for (int d = 0; d < 3; d++)
-            dN[n][d] = d < dim ? 0.5 * corners[n][d] * factor[(d + 1) % 3] * factor[(d + 2) % 3] : 0;
-    }
+    int n = 0;
+    while (n < SIDE_MAX_NODES && nodes[n] >= 0)
+        n++;
+    return dim == 2 ? ELEMENT_LINE3 : n == 6 ? ELEMENT_TRI6 : n == 8 ? ELEMENT_QUAD8 : ELEMENT_QUAD9;
 }
 
-/** Barycentric coordinates. */
-static void shape_simplex(int dim, const double xi[3], double *N, double (*dN)[3])
+double mesh_jacobian(const struct mesh *mesh, size_t e, const double xi[3])
 {
-    N[0] = 1;
-    for (int d = 0; d < dim; d++) {
-        N[0] -= xi[d];
-        N[d + 1] = xi[d];
-    }
-    if (!dN)
-        return;
-    for (int n = 0; n <= dim; n++)
-        for (int d = 0; d < 3; d++)
-            dN[n][d] = d >= dim ? 0 : n == 0 ? -1 : n == d + 1 ? 1 : 0;
-}
-
-void element_shape(enum element_type type, const double xi[3], double *N, double (*dN)[3])
-{
-    const struct element_description *description = &descriptions[type];
-    if (type == ELEMENT_TRI3 || type == ELEMENT_TET4)
-        shape_simplex(description->dim, xi, N, dN);
-    else
-        shape_tensor_product(description->dim, description->nodes, xi, N, dN);
+    const int32_t *nodes = &mesh->connectivity[e * (size_t)mesh->nodes_per_element];
+    double N[ELEMENT_MAX_NODES], dN[ELEMENT_MAX_NODES][3], J[3][3] = {{0}};
+    element_shape(mesh->type, xi, N, dN);
+    for (int i = 0; i < mesh->dim; i++)
+        for (int A = 0; A < mesh->dim; A++)
+            for (int a = 0; a < mesh->nodes_per_element; a++)
+                J[i][A] += mesh->X[nodes[a]][i] * dN[a][A];
+    if (mesh->dim == 2)
+        J[2][2] = 1;
+    return J[0][0] * (J[1][1] * J[2][2] - J[1][2] * J[2][1]) -
+           J[0][1] * (J[1][0] * J[2][2] - J[1][2] * J[2][0]) +
+           J[0][2] * (J[1][0] * J[2][1] - J[1][1] * J[2][0]);
 }
 
 /** Append an empty set with room for @p capacity nodes. */
@@ -172,10 +224,12 @@ static void fill_grid(struct mesh *mesh, const double lower[3], const double upp
     for (size_t k = 0; k < layers; k++)
         for (size_t j = 0; j + 1 < n[1]; j++)
             for (size_t i = 0; i + 1 < n[0]; i++)
-                for (int c = 0; c < mesh->nodes_per_element; c++)
-                    *row++ = (int32_t)(i + (corners[c][0] > 0) +
-                                       n[0] * (j + (corners[c][1] > 0) +
-                                               n[1] * (k + (mesh->dim == 3 && corners[c][2] > 0))));
+                for (int c = 0; c < mesh->nodes_per_element; c++) {
+                    double corner[3];
+                    element_node(mesh->type, c, corner);
+                    *row++ = (int32_t)(i + (corner[0] > 0) +
+                                       n[0] * (j + (corner[1] > 0) + n[1] * (k + (corner[2] > 0))));
+                }
 }
 
 int mesh_create_grid(struct mesh *mesh, int dim, const double lower[3], const double upper[3],
@@ -240,7 +294,7 @@ const struct node_set *mesh_find_set(const struct mesh *mesh, const char *name)
     return NULL;
 }
 
-static int compare_nodes(const struct face_key *a, const struct face_key *b)
+static int compare_nodes(const struct side_key *a, const struct side_key *b)
 {
     for (int n = 0; n < 4; n++)
         if (a->nodes[n] != b->nodes[n])
@@ -250,20 +304,20 @@ static int compare_nodes(const struct face_key *a, const struct face_key *b)
 
 static int compare_keys(const void *a, const void *b)
 {
-    const struct face_key *p = a, *q = b;
+    const struct side_key *p = a, *q = b;
     const int by_nodes = compare_nodes(p, q);
-    return by_nodes ? by_nodes : (p->face > q->face) - (p->face < q->face);
+    return by_nodes ? by_nodes : (p->side > q->side) - (p->side < q->side);
 }
 
-static void fill_key(const struct mesh *mesh, size_t face, struct face_key *key)
+static void fill_key(const struct mesh *mesh, size_t side, struct side_key *key)
 {
     const struct element_description *description = &descriptions[mesh->type];
-    const size_t per_element = (size_t)description->n_faces;
-    const int32_t *element = &mesh->connectivity[face / per_element * (size_t)mesh->nodes_per_element];
-    const int *local = description->faces[face % per_element];
-    key->face = face;
+    const size_t per_element = (size_t)description->n_sides;
+    const int32_t *element = &mesh->connectivity[side / per_element * (size_t)mesh->nodes_per_element];
+    const int *local = description->sides[side % per_element];
+    key->side = side;
     for (int n = 0; n < 4; n++) {
-        int32_t node = local[n] < 0 ? -1 : element[local[n]];
+        int32_t node = n < pieces[description->side].corners ? element[local[n]] : -1;
         int at = n;
         for (; at > 0 && key->nodes[at - 1] > node; at--)
             key->nodes[at] = key->nodes[at - 1];
@@ -271,57 +325,75 @@ static void fill_key(const struct mesh *mesh, size_t face, struct face_key *key)
     }
 }
 
-/** Mark the faces that belong to one element only. */
-static int mark_outer(const struct mesh *mesh, size_t n_faces, bool *outer)
+/** Mark the sides that belong to one element only. */
+static int mark_outer(const struct mesh *mesh, size_t n_sides, bool *outer)
 {
-    struct face_key *keys = memory_create(n_faces, sizeof *keys);
+    struct side_key *keys = memory_create(n_sides, sizeof *keys);
     CHECK_MEMORY(keys);
-    for (size_t f = 0; f < n_faces; f++)
+    for (size_t f = 0; f < n_sides; f++)
         fill_key(mesh, f, &keys[f]);
-    qsort(keys, n_faces, sizeof *keys, compare_keys);
-    for (size_t f = 0; f < n_faces; f++) {
+    qsort(keys, n_sides, sizeof *keys, compare_keys);
+    for (size_t f = 0; f < n_sides; f++) {
         const bool shared = (f > 0 && !compare_nodes(&keys[f], &keys[f - 1])) ||
-                            (f + 1 < n_faces && !compare_nodes(&keys[f], &keys[f + 1]));
-        outer[keys[f].face] = !shared;
+                            (f + 1 < n_sides && !compare_nodes(&keys[f], &keys[f + 1]));
+        outer[keys[f].side] = !shared;
     }
     memory_free(keys);
     return 0;
 }
 
-/** Write the outer faces in the order of the elements. */
+/** Append the pieces of one side. */
+static void add_pieces(const int32_t *nodes, int n, const struct side_pieces *cut, struct facets *skin)
+{
+    for (int p = 0; p < cut->n; p++) {
+        for (int k = 0; k < 4; k++)
+            skin->nodes[skin->n_facets][k] = cut->nodes[p][k] < 0 ? -1 : nodes[cut->nodes[p][k]];
+        for (int k = 0; skin->sides && k < SIDE_MAX_NODES; k++)
+            skin->sides[skin->n_facets][k] = k < n ? nodes[k] : -1;
+        skin->n_facets++;
+    }
+}
+
+/** Write the outer sides in the order of the elements. */
 static void collect_skin(const struct mesh *mesh, const bool *outer, const bool *excluded,
                          struct facets *skin)
 {
     const struct element_description *description = &descriptions[mesh->type];
+    const int n = element_nodes(description->side);
     for (size_t e = 0; e < mesh->n_elements; e++)
-        for (int f = 0; f < description->n_faces; f++) {
-            if (!outer[e * (size_t)description->n_faces + (size_t)f])
+        for (int f = 0; f < description->n_sides; f++) {
+            if (!outer[e * (size_t)description->n_sides + (size_t)f])
                 continue;
-            int32_t *nodes = skin->nodes[skin->n_facets];
+            int32_t nodes[SIDE_MAX_NODES];
             bool drop = true;
-            for (int n = 0; n < 4; n++) {
-                const int local = description->faces[f][n];
-                nodes[n] =
-                    local < 0 ? -1 : mesh->connectivity[e * (size_t)mesh->nodes_per_element + (size_t)local];
-                drop = drop && (local < 0 || excluded[nodes[n]]);
+            for (int k = 0; k < n; k++) {
+                nodes[k] = mesh->connectivity[e * (size_t)mesh->nodes_per_element +
+                                              (size_t)description->sides[f][k]];
+                drop = drop && excluded[nodes[k]];
             }
-            skin->n_facets += !drop;
+            if (!drop)
+                add_pieces(nodes, n, &pieces[description->side], skin);
         }
 }
 
 int mesh_skin(const struct mesh *mesh, const struct node_set *exclude, struct facets *skin)
 {
     *skin = (struct facets){.dim = mesh->dim, .n_points = mesh->n_nodes};
-    CHECK(descriptions[mesh->type].n_faces > 0, STATUS_DECK,
+    const struct element_description *description = &descriptions[mesh->type];
+    CHECK(description->n_sides > 0, STATUS_DECK,
           "a mesh of %s elements has no skin; give the surface by facets of its own",
           element_name(mesh->type));
-    const size_t n_faces = mesh->n_elements * (size_t)descriptions[mesh->type].n_faces;
-    bool *outer = memory_create(n_faces, sizeof *outer);
+    const size_t n_sides = mesh->n_elements * (size_t)description->n_sides,
+                 n_facets = n_sides * (size_t)pieces[description->side].n;
+    const bool curved = element_is_quadratic(mesh->type);
+    bool *outer = memory_create(n_sides, sizeof *outer);
     bool *excluded = memory_create(mesh->n_nodes, sizeof *excluded);
     skin->points = memory_create(mesh->n_nodes, sizeof *skin->points);
-    skin->nodes = memory_create(n_faces, sizeof *skin->nodes);
-    int status =
-        outer && excluded && skin->points && skin->nodes ? mark_outer(mesh, n_faces, outer) : STATUS_MEMORY;
+    skin->nodes = memory_create(n_facets, sizeof *skin->nodes);
+    skin->sides = curved ? memory_create(n_facets, sizeof *skin->sides) : NULL;
+    int status = outer && excluded && skin->points && skin->nodes && (skin->sides || !curved)
+                     ? mark_outer(mesh, n_sides, outer)
+                     : STATUS_MEMORY;
     if (!status) {
         memcpy(skin->points, mesh->X, mesh->n_nodes * sizeof *mesh->X);
         for (size_t n = 0; exclude && n < exclude->n; n++)
@@ -339,6 +411,7 @@ void facets_reset(struct facets *facets)
 {
     memory_free(facets->points);
     memory_free(facets->nodes);
+    memory_free(facets->sides);
     *facets = (struct facets){0};
 }
 

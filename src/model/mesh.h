@@ -2,10 +2,29 @@
 #ifndef MODEL_MESH_H
 #define MODEL_MESH_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-enum element_type { ELEMENT_LINE2, ELEMENT_TRI3, ELEMENT_QUAD4, ELEMENT_TET4, ELEMENT_HEX8, ELEMENT_TYPES };
+/** First-order elements, then quadratic ones; line3 occurs as a side only. */
+enum element_type {
+    ELEMENT_LINE2,
+    ELEMENT_TRI3,
+    ELEMENT_QUAD4,
+    ELEMENT_TET4,
+    ELEMENT_HEX8,
+    ELEMENT_LINE3,
+    ELEMENT_TRI6,
+    ELEMENT_QUAD8,
+    ELEMENT_QUAD9,
+    ELEMENT_TET10,
+    ELEMENT_HEX20,
+    ELEMENT_HEX27,
+    ELEMENT_TYPES
+};
+
+/** Largest numbers of nodes of an element and of one of its sides. */
+enum { ELEMENT_MAX_NODES = 27, SIDE_MAX_NODES = 9 };
 
 /** Facets: the boundary of a mesh, or a surface on its own. Points are rows of 3 (z = 0 in 2-D). A facet has
  * 2 (segment), 3 or 4 nodes; unused entries are -1. Orientation: the normal points into the fluid, out of the
@@ -16,6 +35,9 @@ struct facets {
     size_t n_points, n_facets;
     double (*points)[3];
     int32_t (*nodes)[4];
+    /** Nodes of the curved side (line3, tri6, quad8, quad9; VTK order) that a facet is a straight piece of,
+     * -1 unused; NULL, or -1 first: the facet is a side of its own. All nodes of the facet are among them. */
+    int32_t (*sides)[SIDE_MAX_NODES];
 };
 
 struct node_set {
@@ -49,8 +71,20 @@ int mesh_add_set_box(struct mesh *mesh, const char *name, const double lower[3],
 /** The set called @p name, or NULL. */
 const struct node_set *mesh_find_set(const struct mesh *mesh, const char *name);
 
-/** The skin of the mesh without the facets all of whose nodes lie in @p exclude (NULL: none); node numbers
- * are those of the mesh, facets->points a copy of all mesh nodes. Free with facets_reset. */
+/** Make a mesh of quad4 or hex8 elements into one of another @p type: tri3, tri6, quad8, quad9 or tet4,
+ * tet10, hex20, hex27. Simplices come from cutting all elements alike, which fits together in grids only; new
+ * nodes follow the old ones, in the middle of edges, faces and cells, and belong to the sets that all corners
+ * around them belong to. STATUS_DECK for any other type (reported); the mesh may then be reset. */
+int mesh_convert(struct mesh *mesh, enum element_type type);
+
+/** Determinant of the map from natural coordinates of element @p e at @p xi. */
+double mesh_jacobian(const struct mesh *mesh, size_t e, const double xi[3]);
+
+/** The skin of the mesh without the sides of elements all of whose nodes lie in @p exclude (NULL: none); node
+ * numbers are those of the mesh, facets->points a copy of all mesh nodes. A side of a quadratic element is
+ * cut into facets at its nodes: 2 segments, 4 triangles, 4 triangles and a quad, 4 quads. Free with
+ * facets_reset.
+ */
 int mesh_skin(const struct mesh *mesh, const struct node_set *exclude, struct facets *skin);
 
 /** Spatial dimension, nodes, VTK cell type and name of an element type ("quad4"). */
@@ -58,6 +92,15 @@ int element_dim(enum element_type type);
 int element_nodes(enum element_type type);
 int element_vtk(enum element_type type);
 const char *element_name(enum element_type type);
+
+bool element_is_simplex(enum element_type type);
+bool element_is_quadratic(enum element_type type);
+
+/** The type of a curved side with these nodes (struct facets), in @p dim dimensions. */
+enum element_type side_type(int dim, const int32_t nodes[SIDE_MAX_NODES]);
+
+/** Natural coordinates of a node. */
+void element_node(enum element_type type, int node, double xi[3]);
 
 /** Shape functions N[nodes] and, unless NULL, derivatives dN[nodes][3] by xi at @p xi (natural coordinates,
  * VTK order). */

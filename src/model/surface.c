@@ -40,6 +40,8 @@ static void fill_definition(struct surface *s)
     }
     memcpy(s->X, d->built.points, s->n_points * sizeof *s->X);
     memcpy(s->nodes, d->built.nodes, s->n_facets * sizeof *s->nodes);
+    if (s->sides)
+        memcpy(s->sides, d->built.sides, s->n_facets * sizeof *s->sides);
     memcpy(s->mesh, d->built_mesh, s->n_points * sizeof *s->mesh);
     memcpy(s->mesh_node, d->built_node, s->n_points * sizeof *s->mesh_node);
     for (size_t i = 0; i < s->n_points; ++i)
@@ -51,6 +53,8 @@ static int allocate(struct surface *s)
     size_t n = s->n_points;
     CHECK_MEMORY(s->X = memory_create(n, sizeof *s->X));
     CHECK_MEMORY(s->nodes = memory_create(s->n_facets, sizeof *s->nodes));
+    if (s->definition->built.sides)
+        CHECK_MEMORY(s->sides = memory_create(s->n_facets, sizeof *s->sides));
     CHECK_MEMORY(s->mesh = memory_create(n, sizeof *s->mesh));
     CHECK_MEMORY(s->mesh_node = memory_create(n, sizeof *s->mesh_node));
     CALL(surface_motion_create(&s->level[0], n));
@@ -163,6 +167,7 @@ void surface_destroy(struct surface *surface)
         return;
     memory_free(surface->X);
     memory_free(surface->nodes);
+    memory_free(surface->sides);
     memory_free(surface->mesh);
     memory_free(surface->mesh_node);
     surface_motion_reset(&surface->level[0]);
@@ -237,6 +242,34 @@ void surface_resume(struct surface *surface, double t)
         surface_motion_copy(others[k], &surface->level[1], surface->n_points);
 }
 
+int surface_spread(const struct surface *surface, size_t facet, int32_t points[SIDE_MAX_NODES],
+                   double weights[SIDE_MAX_NODES])
+{
+    const int32_t *nodes = surface->nodes[facet];
+    if (!surface->sides || surface->sides[facet][0] < 0) {
+        int n = 0;
+        for (; n < 4 && nodes[n] >= 0; ++n)
+            points[n] = nodes[n];
+        return n;
+    }
+    const int32_t *side = surface->sides[facet];
+    const enum element_type type = side_type(surface->dim, side);
+    const int n = element_nodes(type);
+    double at[3] = {0.0, 0.0, 0.0};
+    for (int j = 0; j < 4 && nodes[j] >= 0; ++j) {
+        int a = 0;
+        double xi[3];
+        while (a < n - 1 && side[a] != nodes[j])
+            ++a;
+        element_node(type, a, xi);
+        for (int k = 0; k < 3; ++k)
+            at[k] += weights[j] * xi[k];
+    }
+    memcpy(points, side, (size_t)n * sizeof *points);
+    element_shape(type, at, weights, NULL);
+    return n;
+}
+
 void surface_clear_load(struct surface *surface)
 {
     memset(surface->load, 0, surface->n_points * sizeof *surface->load);
@@ -261,12 +294,12 @@ void surface_added_mass_apply(const struct surface *surface, const double (*acce
     for (size_t c = 0; c < surface->n_added_mass; ++c) {
         const struct added_mass_contact *contact = &surface->added_mass[c];
         double a[3] = {0.0, 0.0, 0.0}, f[3];
-        for (int j = 0; j < 4 && contact->columns[j] >= 0; ++j)
+        for (int j = 0; j < SIDE_MAX_NODES && contact->columns[j] >= 0; ++j)
             for (int k = 0; k < 3; ++k)
                 a[k] += contact->column_weights[j] * acceleration[contact->columns[j]][k];
         for (int k = 0; k < 3; ++k)
             f[k] = contact->tensor[k][0] * a[0] + contact->tensor[k][1] * a[1] + contact->tensor[k][2] * a[2];
-        for (int j = 0; j < 4 && contact->rows[j] >= 0; ++j)
+        for (int j = 0; j < SIDE_MAX_NODES && contact->rows[j] >= 0; ++j)
             for (int k = 0; k < 3; ++k)
                 result[contact->rows[j]][k] += contact->row_weights[j] * f[k];
     }

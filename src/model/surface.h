@@ -21,8 +21,8 @@ struct surface_motion {
  * facet that gave the acceleration. f += -T a is the fluid's reaction: surface_added_mass_apply returns +T a.
  */
 struct added_mass_contact {
-    int32_t rows[4], columns[4]; /**< point numbers, -1 unused */
-    double row_weights[4], column_weights[4];
+    int32_t rows[SIDE_MAX_NODES], columns[SIDE_MAX_NODES]; /**< point numbers, -1 unused */
+    double row_weights[SIDE_MAX_NODES], column_weights[SIDE_MAX_NODES];
     double tensor[3][3]; /**< kg */
 };
 
@@ -34,12 +34,13 @@ struct surface {
     const struct model_surface *definition;
     int dim;
     size_t n_points, n_facets;
-    double (*X)[3];      /**< reference places */
-    int32_t (*nodes)[4]; /**< facets, oriented as struct facets */
-    int32_t *mesh;       /**< per point: index of the model mesh that moves it, or -1: prescribed */
-    int32_t *mesh_node;  /**< per point: node of that mesh */
-    bool coupled;        /**< some point is moved by a solid */
-    bool moving;         /**< coupled, or its prescribed motion moves */
+    double (*X)[3];                   /**< reference places */
+    int32_t (*nodes)[4];              /**< facets, oriented as struct facets */
+    int32_t (*sides)[SIDE_MAX_NODES]; /**< curved sides they are pieces of, as in struct facets, or NULL */
+    int32_t *mesh;      /**< per point: index of the model mesh that moves it, or -1: prescribed */
+    int32_t *mesh_node; /**< per point: node of that mesh */
+    bool coupled;       /**< some point is moved by a solid */
+    bool moving;        /**< coupled, or its prescribed motion moves */
     enum surface_rule rule;
     struct surface_motion level[2]; /**< start and end of the step */
     struct surface_motion now;      /**< as evaluated by surface_at */
@@ -75,6 +76,12 @@ void surface_recall(struct surface *surface, double t);
 /** Go on from a checkpoint at the end of a step at time @p t: prescribed points at both levels, trial and
  * now; points of solids follow from solid_resume. */
 void surface_resume(struct surface *surface, double t);
+
+/** How motion and load at a place of a facet belong to points: @p weights (overwritten) are the facet's own
+ * shape functions there; where the facet is a straight piece of a curved side, they become the side's shape
+ * functions at the same natural coordinates. Fills @p points; returns how many there are. */
+int surface_spread(const struct surface *surface, size_t facet, int32_t points[SIDE_MAX_NODES],
+                   double weights[SIDE_MAX_NODES]);
 
 /** load := 0, moment := 0. */
 void surface_clear_load(struct surface *surface);

@@ -24,7 +24,16 @@ struct gathering {
     size_t n_candidates, n_facets;
     struct candidate *candidates;
     int32_t (*facets)[4];
+    int32_t (*sides)[SIDE_MAX_NODES]; // NULL while no facet is a piece of a curved side
+    size_t candidate_capacity, facet_capacity;
     struct candidate **by_x; // candidates in ascending order of x
+};
+
+/** A part whose points are gathered. */
+struct gathered_part {
+    const struct facets *facets;
+    int32_t part, mesh;
+    int32_t *number; // per point: its candidate plus one, 0: not met yet
 };
 
 static int candidate_compare(const void *left, const void *right)
@@ -35,44 +44,72 @@ static int candidate_compare(const void *left, const void *right)
     return a->rank < b->rank ? -1 : a->rank > b->rank;
 }
 
+/** Candidate of a point, which is appended when it is met first; -1: no point. */
+static int32_t gathering_number(struct gathering *gathering, const struct gathered_part *part, int32_t node)
+{
+    if (node < 0)
+        return -1;
+    if (!part->number[node]) {
+        struct candidate *candidate = &gathering->candidates[gathering->n_candidates++];
+        memcpy(candidate->x, part->facets->points[node], sizeof candidate->x);
+        candidate->part = part->part;
+        candidate->mesh = part->mesh;
+        candidate->node = part->mesh >= 0 ? node : -1;
+        candidate->built = -1;
+        part->number[node] = (int32_t)gathering->n_candidates;
+    }
+    return part->number[node] - 1;
+}
+
+/** Room for the points and facets of one part. */
+static int gathering_reserve(struct gathering *gathering, const struct facets *facets, bool curved)
+{
+    size_t side_capacity = gathering->sides ? gathering->facet_capacity : 0;
+    CALL(memory_grow((void **)&gathering->candidates, &gathering->candidate_capacity,
+                     gathering->n_candidates + facets->n_points, sizeof *gathering->candidates));
+    CALL(memory_grow((void **)&gathering->facets, &gathering->facet_capacity,
+                     gathering->n_facets + facets->n_facets, sizeof *gathering->facets));
+    if (!curved)
+        return 0;
+    CALL(memory_grow((void **)&gathering->sides, &side_capacity, gathering->facet_capacity,
+                     sizeof *gathering->sides));
+    return 0;
+}
+
 /** Append the facets of one part and the points they use. */
 static int gathering_add(struct gathering *gathering, const struct facets *facets, int32_t part, int32_t mesh,
-                         size_t *candidate_capacity, size_t *facet_capacity)
+                         bool curved)
 {
-    int32_t *number = memory_create(facets->n_points, sizeof *number);
-    CHECK_MEMORY(number);
-    int status = memory_grow((void **)&gathering->candidates, candidate_capacity,
-                             gathering->n_candidates + facets->n_points, sizeof *gathering->candidates);
-    if (!status)
-        status = memory_grow((void **)&gathering->facets, facet_capacity,
-                             gathering->n_facets + facets->n_facets, sizeof *gathering->facets);
+    const struct gathered_part gathered = {facets, part, mesh,
+                                           memory_create(facets->n_points, sizeof *gathered.number)};
+    CHECK_MEMORY(gathered.number);
+    const int status = gathering_reserve(gathering, facets, curved);
     for (size_t f = 0; !status && f < facets->n_facets; f++) {
-        int32_t *nodes = gathering->facets[gathering->n_facets++];
-        for (int k = 0; k < 4; k++) {
-            int32_t node = facets->nodes[f][k];
-            nodes[k] = -1;
-            if (node < 0)
-                continue;
-            if (!number[node]) { // numbers are kept plus one, so that zeroed memory means "not met yet"
-                struct candidate *candidate = &gathering->candidates[gathering->n_candidates++];
-                memcpy(candidate->x, facets->points[node], sizeof candidate->x);
-                candidate->part = part;
-                candidate->mesh = mesh;
-                candidate->node = mesh >= 0 ? node : -1;
-                candidate->built = -1;
-                number[node] = (int32_t)gathering->n_candidates;
-            }
-            nodes[k] = number[node] - 1;
-        }
+        const size_t at = gathering->n_facets++;
+        for (int k = 0; k < 4; k++)
+            gathering->facets[at][k] = gathering_number(gathering, &gathered, facets->nodes[f][k]);
+        for (int k = 0; curved && k < SIDE_MAX_NODES; k++)
+            gathering->sides[at][k] =
+                facets->sides ? gathering_number(gathering, &gathered, facets->sides[f][k]) : -1;
     }
-    memory_free(number);
+    memory_free(gathered.number);
     return status;
+}
+
+/** Whether some part is the skin of a mesh with curved sides. */
+static bool has_curved_sides(const struct model *model, const struct model_surface *surface)
+{
+    for (size_t p = 0; p < surface->n_parts; p++)
+        if (surface->parts[p].mesh >= 0 &&
+            element_is_quadratic(model->meshes[surface->parts[p].mesh].mesh.type))
+            return true;
+    return false;
 }
 
 static int gathering_fill(struct gathering *gathering, const struct model *model,
                           const struct model_surface *surface)
 {
-    size_t candidate_capacity = 0, facet_capacity = 0;
+    const bool curved = has_curved_sides(model, surface);
     for (size_t p = 0; p < surface->n_parts; p++) {
         const struct surface_part *part = &surface->parts[p];
         struct facets skin = {0};
@@ -83,8 +120,7 @@ static int gathering_fill(struct gathering *gathering, const struct model *model
         const struct facets *facets = part->mesh >= 0 ? &skin : &part->facets;
         int status =
             facets->n_facets
-                ? gathering_add(gathering, facets, (int32_t)p, part->mesh, &candidate_capacity,
-                                &facet_capacity)
+                ? gathering_add(gathering, facets, (int32_t)p, part->mesh, curved)
                 : error_report(STATUS_DECK, "%s:%d:%d: <surface name=\"%s\">: part %zu has no facets",
                                model->path, surface->where.line, surface->where.column, surface->name, p + 1);
         facets_reset(&skin);
@@ -171,21 +207,34 @@ static int gathering_merge(struct gathering *gathering, struct model_surface *su
     return 0;
 }
 
+/** The curved side of facet @p f in built points; a facet that has lost a corner stands for itself. */
+static void gathering_side(const struct gathering *gathering, size_t f, bool whole, int32_t *side)
+{
+    for (int k = 0; k < SIDE_MAX_NODES; k++) {
+        const int32_t candidate = gathering->sides[f][k];
+        side[k] = whole && candidate >= 0 ? gathering->candidates[candidate].built : -1;
+    }
+}
+
 /** Facets of built points; corners that fell together are dropped. */
 static int gathering_connect(const struct gathering *gathering, int dim, struct facets *built)
 {
-    built->nodes = memory_create(gathering->n_facets, sizeof *built->nodes);
-    CHECK_MEMORY(built->nodes);
+    CHECK_MEMORY(built->nodes = memory_create(gathering->n_facets, sizeof *built->nodes));
+    if (gathering->sides)
+        CHECK_MEMORY(built->sides = memory_create(gathering->n_facets, sizeof *built->sides));
     for (size_t f = 0; f < gathering->n_facets; f++) {
         int32_t kept[4] = {-1, -1, -1, -1};
-        int n = 0;
-        for (int k = 0; k < 4 && gathering->facets[f][k] >= 0; k++) {
-            int32_t point = gathering->candidates[gathering->facets[f][k]].built;
+        int n = 0, corners = 0;
+        for (; corners < 4 && gathering->facets[f][corners] >= 0; corners++) {
+            int32_t point = gathering->candidates[gathering->facets[f][corners]].built;
             if ((n == 0 || kept[n - 1] != point) && (n < 2 || kept[0] != point))
                 kept[n++] = point;
         }
-        if (n >= dim)
-            memcpy(built->nodes[built->n_facets++], kept, sizeof kept);
+        if (n < dim)
+            continue;
+        if (built->sides)
+            gathering_side(gathering, f, n == corners, built->sides[built->n_facets]);
+        memcpy(built->nodes[built->n_facets++], kept, sizeof kept);
     }
     return 0;
 }
@@ -204,6 +253,7 @@ int surface_build(const struct model *model, struct model_surface *surface)
         status = gathering_connect(&gathering, model->dim, &surface->built);
     memory_free(gathering.candidates);
     memory_free(gathering.facets);
+    memory_free(gathering.sides);
     memory_free(gathering.by_x);
     if (status)
         surface_build_reset(surface);

@@ -144,20 +144,10 @@ static void build_mass(struct continuum *continuum)
     const int per = mesh->nodes_per_element;
     for (size_t e = 0; e < mesh->n_elements; e++) {
         const int32_t *nodes = element_nodes_of(continuum, e);
-        double X[ELEMENT_MAX_NODES][3];
-        gather_places(continuum, e, X);
         for (int p = 0; p < rule.n; p++) {
-            double N[ELEMENT_MAX_NODES], dN[ELEMENT_MAX_NODES][3], J[3][3] = {{0}};
-            element_shape(mesh->type, rule.xi[p], N, dN);
-            for (int i = 0; i < 3; i++)
-                for (int A = 0; A < 3; A++)
-                    for (int a = 0; a < per; a++)
-                        J[i][A] += X[a][i] * dN[a][A];
-            if (continuum->dim == 2)
-                J[2][2] = 1;
-            const double det = J[0][0] * (J[1][1] * J[2][2] - J[1][2] * J[2][1]) -
-                               J[0][1] * (J[1][0] * J[2][2] - J[1][2] * J[2][0]) +
-                               J[0][2] * (J[1][0] * J[2][1] - J[1][1] * J[2][0]);
+            double N[ELEMENT_MAX_NODES];
+            const double det = mesh_jacobian(mesh, e, rule.xi[p]);
+            element_shape(mesh->type, rule.xi[p], N, NULL);
             for (int a = 0; a < per; a++)
                 for (int b = 0; b < per; b++) {
                     const double m = continuum->density * rule.weight[p] * det * N[a] * N[b];

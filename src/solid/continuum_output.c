@@ -132,7 +132,7 @@ static double outside(enum element_type type, const double xi[3])
     const int dim = element_dim(type);
     double excess = 0, sum = 0;
     for (int d = 0; d < dim; d++) {
-        const bool simplex = type == ELEMENT_TRI3 || type == ELEMENT_TET4;
+        const bool simplex = element_is_simplex(type);
         excess = fmax(excess, simplex ? -xi[d] : fabs(xi[d]) - 1);
         sum += simplex ? xi[d] : 0;
     }
@@ -164,7 +164,7 @@ static bool invert_map(const struct continuum *continuum, size_t element, const 
 {
     const struct mesh *mesh = continuum->mesh;
     const int32_t *nodes = &mesh->connectivity[element * (size_t)mesh->nodes_per_element];
-    xi[0] = xi[1] = xi[2] = 0;
+    xi[0] = xi[1] = xi[2] = element_is_simplex(mesh->type) ? 0.25 : 0;
     for (int iteration = 0; iteration < LOCATE_ITERATIONS; iteration++) {
         double N[ELEMENT_MAX_NODES], dN[ELEMENT_MAX_NODES][3], J[3][3] = {{0}}, r[3] = {0}, step[3];
         element_shape(mesh->type, xi, N, dN);
@@ -206,7 +206,8 @@ int continuum_locate(const struct solid *solid, const double X[3], struct solid_
                 low = fmin(low, mesh->X[nodes[a]][i]);
                 high = fmax(high, mesh->X[nodes[a]][i]);
             }
-            const double margin = locate_tolerance * (high - low);
+            /* a curved side may bulge beyond its nodes, at most by as much again */
+            const double margin = (element_is_quadratic(mesh->type) ? 1 : locate_tolerance) * (high - low);
             near = near && X[i] >= low - margin && X[i] <= high + margin;
         }
         double xi[3];

@@ -23,10 +23,16 @@ libskerry_la_SOURCES += \
 	src/solid/element/element_list.h \
 	src/solid/element/f_bar.h \
 	src/solid/element/full.h \
+	src/solid/element/hex20.c \
+	src/solid/element/hex27.c \
 	src/solid/element/hex8.c \
 	src/solid/element/kinematics.h \
 	src/solid/element/quad4.c \
+	src/solid/element/quad8.c \
+	src/solid/element/quad9.c \
 	src/solid/element/quadrature.c \
 	src/solid/element/quadrature.h \
+	src/solid/element/tet10.c \
 	src/solid/element/tet4.c \
-	src/solid/element/tri3.c
+	src/solid/element/tri3.c \
+	src/solid/element/tri6.c

@@ -18,7 +18,8 @@ int solid_check(const struct model *model, int index)
     const struct model_mesh *mesh = &model->meshes[index];
     const struct solid_type *type = find_type(mesh);
     CHECK(type, STATUS_DECK,
-          "%s:%d:%d: <mesh name=\"%s\">: no solid is made of %s elements; use tri3, quad4, tet4 or hex8",
+          "%s:%d:%d: <mesh name=\"%s\">: no solid is made of %s elements; use triangles, quads, tetrahedra "
+          "or hexahedra",
           model->path, mesh->where.line, mesh->where.column, mesh->name, element_name(mesh->mesh.type));
     return type->check(model, mesh);
 }

@@ -148,7 +148,7 @@ void sliding_contact_finish(const struct boundary *boundary, const struct hit *h
         contact->shift[k] = hit->shift[k];
         contact->u[k] = contact->a[k] = 0.0;
     }
-    for (int j = 0; j < 4; ++j)
+    for (int j = 0; j < SIDE_MAX_NODES; ++j)
         contact->nodes[j] = -1;
     if (!hit->piece) {
         double at[3] = {contact->c[0] - hit->shift[0], contact->c[1] - hit->shift[1],
@@ -158,11 +158,10 @@ void sliding_contact_finish(const struct boundary *boundary, const struct hit *h
         contact->nodes_weight[0] = 1.0;
         return;
     }
-    int n_nodes = s->facets[hit->piece->facet].n_nodes;
-    piece_weights(hit->piece, n_nodes, hit->at.closest, contact->nodes_weight);
+    piece_weights(hit->piece, s->facets[hit->piece->facet].n_nodes, hit->at.closest, contact->nodes_weight);
+    int n_nodes = surface_spread(surface, (size_t)hit->facet, contact->nodes, contact->nodes_weight);
     for (int j = 0; j < n_nodes; ++j) {
-        int32_t node = surface->nodes[hit->facet][j];
-        contact->nodes[j] = node;
+        int32_t node = contact->nodes[j];
         for (int k = 0; k < 3; ++k) {
             contact->u[k] += contact->nodes_weight[j] * surface->now.v[node][k];
             contact->a[k] += contact->nodes_weight[j] * surface->now.a[node][k];
@@ -560,7 +559,7 @@ static void put_particle(struct boundary *boundary, size_t near, double mass, st
         impulse[k] = mass * inward * normal[k];
         arm[k] = contact.c[k] - hit->shift[k] - s->shapes[hit->surface].centre[k];
     }
-    for (int j = 0; j < 4 && contact.nodes[j] >= 0; ++j)
+    for (int j = 0; j < SIDE_MAX_NODES && contact.nodes[j] >= 0; ++j)
         for (int k = 0; k < 3; ++k)
             s->pending[hit->surface][contact.nodes[j]][k] += contact.nodes_weight[j] * impulse[k];
     if (!hit->piece)

@@ -305,7 +305,7 @@ void sliding_react(struct boundary *boundary, size_t near, const struct wall_nei
 /** Spread a contact's force over the points of its surface. */
 static void contact_load(const struct sliding *s, struct surface *surface, const struct contact *contact)
 {
-    for (int j = 0; j < 4 && contact->nodes[j] >= 0; ++j)
+    for (int j = 0; j < SIDE_MAX_NODES && contact->nodes[j] >= 0; ++j)
         for (int k = 0; k < 3; ++k)
             surface->load[contact->nodes[j]][k] += contact->nodes_weight[j] * contact->force[k];
     if (surface->definition->kind == SURFACE_FACETS)

@@ -25,8 +25,8 @@ struct contact {
     double layer;                                  /**< d_f: distance of the centroid from the wall */
     double p0, p_slope[3];                         /**< p_k = p0 + slope . (m_r + 1/2, m_s, m_t) */
     double force[3];                               /**< on the wall, N */
-    double nodes_weight[4];
-    int32_t nodes[4]; /**< points of the surface that take the load, -1 unused */
+    double nodes_weight[SIDE_MAX_NODES];
+    int32_t nodes[SIDE_MAX_NODES]; /**< points of the surface that take the load, -1 unused */
     int32_t surface;
     int32_t source; /**< contact of the same particle whose sums are used: itself, or another one's source */
     size_t tensor;  /**< where its added mass stands in the surface's list, or SIZE_MAX */

@@ -140,13 +140,20 @@ static void test_skin_of_tetrahedron(void **state)
     assert_int_equal(mesh_skin(&line, NULL, &skin), STATUS_DECK);
 }
 
-/** Partition of unity, nodal values, derivatives against differences. */
+static double monomial(const double x[3], int i, int j, int k)
+{
+    return pow(x[0], i) * pow(x[1], j) * pow(x[2], k);
+}
+
+/** Partition of unity, derivatives against differences; 1 at the own node and 0 at others; polynomials of the
+ * element's degree are reproduced. */
 static void test_shape_functions(void **state)
 {
     (void)state;
     for (enum element_type type = 0; type < ELEMENT_TYPES; type++) {
         const int nodes = element_nodes(type), dim = element_dim(type);
-        double N[8], dN[8][3], plus[8], minus[8], sum = 0;
+        double N[ELEMENT_MAX_NODES], dN[ELEMENT_MAX_NODES][3], plus[ELEMENT_MAX_NODES],
+            minus[ELEMENT_MAX_NODES], sum = 0;
         const double xi[3] = {0.13, 0.29, 0.17}, h = 1e-5;
         element_shape(type, xi, N, dN);
         for (int a = 0; a < nodes; a++)
@@ -161,12 +168,154 @@ static void test_shape_functions(void **state)
             for (int a = 0; a < nodes; a++)
                 assert_true(fabs(dN[a][d] - (d < dim ? (plus[a] - minus[a]) / (2 * h) : 0)) < 1e-10);
         }
+        double at[ELEMENT_MAX_NODES][3];
+        for (int a = 0; a < nodes; a++) {
+            element_node(type, a, at[a]);
+            element_shape(type, at[a], plus, NULL);
+            for (int b = 0; b < nodes; b++)
+                assert_true(plus[b] == (a == b));
+        }
+        const int degree = element_is_quadratic(type) ? 2 : 1;
+        for (int i = 0; i <= degree; i++)
+            for (int j = 0; j <= (dim > 1 ? degree - i : 0); j++)
+                for (int k = 0; k <= (dim > 2 ? degree - i - j : 0); k++) {
+                    double value = 0;
+                    for (int a = 0; a < nodes; a++)
+                        value += N[a] * monomial(at[a], i, j, k);
+                    assert_true(fabs(value - monomial(xi, i, j, k)) < 1e-15);
+                }
     }
     double N[8];
     element_shape(ELEMENT_HEX8, (const double[3]){1, 1, -1}, N, NULL);
     assert_true(N[2] == 1 && N[6] == 0);
     assert_string_equal(element_name(ELEMENT_HEX8), "hex8");
     assert_int_equal(element_vtk(ELEMENT_TET4), 10);
+}
+
+/** Names, and cell types of the VTK file format. */
+static void test_vtk_types(void **state)
+{
+    (void)state;
+    const struct {
+        enum element_type type;
+        const char *name;
+        int vtk, nodes;
+    } types[] = {{ELEMENT_LINE3, "line3", 21, 3},  {ELEMENT_TRI6, "tri6", 22, 6},
+                 {ELEMENT_QUAD8, "quad8", 23, 8},  {ELEMENT_QUAD9, "quad9", 28, 9},
+                 {ELEMENT_TET10, "tet10", 24, 10}, {ELEMENT_HEX20, "hex20", 25, 20},
+                 {ELEMENT_HEX27, "hex27", 29, 27}};
+    for (size_t k = 0; k < sizeof types / sizeof types[0]; k++) {
+        assert_string_equal(element_name(types[k].type), types[k].name);
+        assert_int_equal(element_vtk(types[k].type), types[k].vtk);
+        assert_int_equal(element_nodes(types[k].type), types[k].nodes);
+    }
+    /* VTK's face nodes of hex27: 20 on x-, 21 x+, 22 y-, 23 y+, 24 z-, 25 z+ */
+    double xi[3];
+    for (int side = 0; side < 6; side++) {
+        element_node(ELEMENT_HEX27, 20 + side, xi);
+        for (int d = 0; d < 3; d++)
+            assert_true(xi[d] == (d == side / 2 ? (side % 2 ? 1 : -1) : 0));
+    }
+}
+
+static const struct conversion {
+    enum element_type type;
+    size_t n_nodes, n_elements; /**< of a grid of 4 x 3 (x 2) cells */
+    size_t x_plus;              /**< nodes on the side x+ */
+    size_t facets;
+} conversions[] = {{ELEMENT_TRI3, 20, 24, 4, 14},     {ELEMENT_QUAD4, 20, 12, 4, 14},
+                   {ELEMENT_TRI6, 63, 24, 7, 28},     {ELEMENT_QUAD8, 51, 12, 7, 28},
+                   {ELEMENT_QUAD9, 63, 12, 7, 28},    {ELEMENT_TET4, 60, 144, 12, 104},
+                   {ELEMENT_HEX8, 60, 24, 12, 52},    {ELEMENT_TET10, 315, 144, 35, 416},
+                   {ELEMENT_HEX20, 193, 24, 29, 260}, {ELEMENT_HEX27, 315, 24, 35, 208}};
+
+/** Area vector of a facet (2-D: length times the normal) and its centroid's product with it. */
+static double facet_area(const struct facets *skin, size_t f, double area[3])
+{
+    const int32_t *nodes = skin->nodes[f];
+    const double *a = skin->points[nodes[0]], *b = skin->points[nodes[1]];
+    memset(area, 0, 3 * sizeof *area);
+    if (skin->dim == 2) {
+        area[0] = b[1] - a[1];
+        area[1] = a[0] - b[0];
+        return 0.5 * ((a[0] + b[0]) * area[0] + (a[1] + b[1]) * area[1]);
+    }
+    for (int part = 0; part < (nodes[3] < 0 ? 1 : 2); part++) {
+        const double *p = skin->points[nodes[part + 1]], *q = skin->points[nodes[part + 2]];
+        for (int i = 0; i < 3; i++) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            area[i] += 0.5 * ((p[j] - a[j]) * (q[k] - a[k]) - (p[k] - a[k]) * (q[j] - a[j]));
+        }
+    }
+    return a[0] * area[0] + a[1] * area[1] + a[2] * area[2]; /* the facets are plane */
+}
+
+/** A grid of any type: counts, volume, node sets on their sides, and a closed skin whose facets face out and
+ * know their curved sides. */
+static void test_conversion(void **state)
+{
+    (void)state;
+    for (size_t c = 0; c < sizeof conversions / sizeof conversions[0]; c++) {
+        const struct conversion *expected = &conversions[c];
+        const int dim = element_dim(expected->type);
+        struct mesh mesh;
+        struct facets skin;
+        assert_int_equal(mesh_create_grid(&mesh, dim, lower, upper, (const int[3]){4, 3, 2}), 0);
+        assert_int_equal(mesh_convert(&mesh, expected->type), 0);
+        assert_int_equal(mesh.type, expected->type);
+        assert_int_equal(mesh.n_nodes, expected->n_nodes);
+        assert_int_equal(mesh.n_elements, expected->n_elements);
+        const struct node_set *set = mesh_find_set(&mesh, "x+");
+        assert_int_equal(set->n, expected->x_plus);
+        for (size_t n = 0; n < set->n; n++)
+            assert_true(mesh.X[set->nodes[n]][0] == upper[0]);
+        const double all = 0.35101 * 0.02 * (dim == 3 ? 0.4 : 1), reference[3] = {0.13, 0.29, 0.17};
+        double volume = 0, area[3] = {0}, enclosed = 0;
+        for (size_t e = 0; e < mesh.n_elements; e++) { /* the Jacobian is constant */
+            assert_true(mesh_jacobian(&mesh, e, reference) > 0);
+            volume += mesh_jacobian(&mesh, e, reference) * (element_is_simplex(mesh.type)
+                                                                ? (dim == 2 ? 1.0 / 2 : 1.0 / 6)
+                                                            : dim == 2 ? 4
+                                                                       : 8);
+        }
+        assert_true(fabs(volume - all) < 1e-15);
+        assert_int_equal(mesh_skin(&mesh, NULL, &skin), 0);
+        assert_int_equal(skin.n_facets, expected->facets);
+        assert_true((skin.sides != NULL) == element_is_quadratic(mesh.type));
+        for (size_t f = 0; f < skin.n_facets; f++) {
+            double normal[3];
+            enclosed += facet_area(&skin, f, normal) / dim;
+            for (int i = 0; i < 3; i++)
+                area[i] += normal[i];
+            for (int k = 0; skin.sides && k < 4 && skin.nodes[f][k] >= 0; k++) {
+                const int n = element_nodes(side_type(dim, skin.sides[f]));
+                bool found = false;
+                for (int s = 0; s < n; s++)
+                    found = found || skin.sides[f][s] == skin.nodes[f][k];
+                assert_true(found);
+            }
+        }
+        for (int i = 0; i < 3; i++)
+            assert_true(fabs(area[i]) < 1e-15);
+        assert_true(fabs(enclosed - all) < 1e-15);
+        facets_reset(&skin);
+        assert_int_equal(mesh_skin(&mesh, set, &skin), 0);
+        assert_true(skin.n_facets < expected->facets);
+        facets_reset(&skin);
+        mesh_reset(&mesh);
+    }
+}
+
+static void test_conversion_refuses(void **state)
+{
+    (void)state;
+    struct mesh mesh;
+    assert_int_equal(mesh_create_grid(&mesh, 2, lower, upper, (const int[3]){4, 3, 2}), 0);
+    assert_int_equal(mesh_convert(&mesh, ELEMENT_HEX20), STATUS_DECK);
+    assert_int_equal(mesh_convert(&mesh, ELEMENT_LINE3), STATUS_DECK);
+    assert_int_equal(mesh_convert(&mesh, ELEMENT_TRI6), 0);
+    assert_int_equal(mesh_convert(&mesh, ELEMENT_QUAD8), STATUS_DECK);
+    mesh_reset(&mesh);
 }
 
 int main(void)
@@ -178,6 +327,9 @@ int main(void)
         cmocka_unit_test(test_skin_is_closed_and_faces_out),
         cmocka_unit_test(test_skin_of_tetrahedron),
         cmocka_unit_test(test_shape_functions),
+        cmocka_unit_test(test_vtk_types),
+        cmocka_unit_test(test_conversion),
+        cmocka_unit_test(test_conversion_refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,11 +9,12 @@
 
 #include "base/error.h"
 #include "solid/element/element_list.h"
+#include "solid/element/quadrature.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { DATA = 8 * (1 + 24 + 108) + 24 };
+enum { NODES = ELEMENT_MAX_NODES, DOF = ELEMENT_MAX_DOF, DATA = 27 * (1 + DOF) };
 
 static const struct solid_material rubber = {
     .law = "saint-venant-kirchhoff", .density = 1100, .young = 1400, .poisson = 0.4};
@@ -30,17 +31,17 @@ static struct constitutive law_of(const struct solid_material *material)
     return law;
 }
 
-/** A distorted element of any type: corners of the unit cell (simplex) moved by fixed awkward amounts. */
-static void distorted(const struct element_kernel *kernel, double X[8][3])
+/** A distorted element of any type: nodes of the unit cell (simplex) moved by fixed awkward amounts. */
+static void distorted(const struct element_kernel *kernel, double X[NODES][3])
 {
-    static const double corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    static const int tet[4] = {0, 1, 3, 4}, tri[3] = {0, 1, 3};
-    const int dim = element_dim(kernel->type);
+    const double amount = element_is_quadratic(kernel->type) ? 0.02 : 0.06;
     for (int a = 0; a < element_nodes(kernel->type); a++) {
-        const int c = kernel->type == ELEMENT_TET4 ? tet[a] : kernel->type == ELEMENT_TRI3 ? tri[a] : a;
-        for (int i = 0; i < 3; i++)
-            X[a][i] = i < dim ? 0.37 * corner[c][i] + 0.06 * sin(7.0 * a + 3.1 * i + 0.4) : 0;
+        double xi[3];
+        element_node(kernel->type, a, xi);
+        for (int i = 0; i < 3; i++) {
+            const double unit = element_is_simplex(kernel->type) ? xi[i] : 0.5 * (xi[i] + 1);
+            X[a][i] = i < element_dim(kernel->type) ? 0.37 * unit + amount * sin(7.0 * a + 3.1 * i + 0.4) : 0;
+        }
     }
 }
 
@@ -58,7 +59,7 @@ static void test_derivatives(void **state)
         const struct constitutive law = law_of(materials[k % MATERIALS]);
         const struct element_kernel *kernel = element_list[k / MATERIALS];
         const int dof = element_nodes(kernel->type) * element_dim(kernel->type);
-        double X[8][3], data[DATA], d[24], f[24], K[576], plus[24], minus[24];
+        double X[NODES][3], data[DATA], d[DOF], f[DOF], K[DOF * DOF], plus[DOF], minus[DOF];
         const double h = 1e-6;
         assert_true(kernel->data_size <= DATA);
         distorted(kernel, X);
@@ -94,7 +95,7 @@ static void test_rigid_rotation(void **state)
         const struct element_kernel *kernel = element_list[k / MATERIALS];
         const int dim = element_dim(kernel->type);
         const double c = cos(2.1), s = sin(2.1);
-        double X[8][3], data[DATA], d[24], f[24], stress[6], volume;
+        double X[NODES][3], data[DATA], d[DOF], f[DOF], stress[6], volume;
         distorted(kernel, X);
         for (int a = 0; a < element_nodes(kernel->type); a++) {
             const double x[3] = {c * X[a][0] - s * X[a][1] + 0.3, s * X[a][0] + c * X[a][1] - 1.7,
@@ -121,7 +122,7 @@ static void check_homogeneous_deformation(const struct solid_material *material,
     for (int k = 0; k < ELEMENT_LIST_SIZE; k++) {
         const struct element_kernel *kernel = element_list[k];
         const int dim = element_dim(kernel->type);
-        double X[8][3], data[DATA], d[24], stress[6], volume;
+        double X[NODES][3], data[DATA], d[DOF], stress[6], volume;
         distorted(kernel, X);
         for (int a = 0; a < element_nodes(kernel->type); a++)
             for (int i = 0; i < dim; i++)
@@ -179,7 +180,7 @@ static void test_enhanced_minimum(void **state)
     for (int k = 0; k < 2; k++) {
         const struct element_kernel *eas = pairs[k][0], *full = pairs[k][1];
         const int dim = element_dim(eas->type), nodes = element_nodes(eas->type);
-        double X[8][3], data[DATA], plain[DATA], d[24], f[24], again[24], K[576];
+        double X[NODES][3], data[DATA], plain[DATA], d[DOF], f[DOF], again[DOF], K[DOF * DOF];
         distorted(eas, X);
         for (int a = 0; a < nodes; a++) {
             const double angle = 1.1 * X[a][0], radius = 0.8 - 0.8 * X[a][1];
@@ -220,6 +221,84 @@ static void test_bending_of_one_element(void **state)
     }
 }
 
+/** The same displacement is in the quadratic elements, with v = -k x^2/2: no locking. */
+static void test_bending_of_quadratic_elements(void **state)
+{
+    (void)state;
+    const struct element_kernel *const kernels[] = {&tri6_full,  &quad8_full, &quad9_full,
+                                                    &tet10_full, &hex20_full, &hex27_full};
+    const double a = 0.8, b = 0.1, k = 1e-6;
+    const struct constitutive law = law_of(&rubber);
+    for (size_t e = 0; e < sizeof kernels / sizeof kernels[0]; e++) {
+        const struct element_kernel *kernel = kernels[e];
+        const int dim = element_dim(kernel->type);
+        double X[NODES][3], data[DATA], d[DOF], volume;
+        for (int n = 0; n < element_nodes(kernel->type); n++) {
+            double xi[3];
+            element_node(kernel->type, n, xi);
+            const bool simplex = element_is_simplex(kernel->type);
+            const double size[3] = {a, b, 0.3};
+            for (int i = 0; i < 3; i++)
+                X[n][i] = i < dim ? size[i] * (simplex ? xi[i] : 0.5 * xi[i]) : 0;
+            /* plane strain in bending: sigma_yy = 0 by v = -nu/(1 - nu) k y^2/2 - k x^2/2 */
+            d[n * dim] = k * X[n][0] * X[n][1];
+            d[n * dim + 1] = -0.5 * k * X[n][0] * X[n][0] - 0.5 * 0.4 / 0.6 * k * X[n][1] * X[n][1];
+            if (dim == 3)
+                d[n * dim + 2] = 0;
+        }
+        assert_int_equal(kernel->prepare((const double(*)[3])X, &law, data), 0);
+        const double energy = kernel->energy(data, &law, d, NULL, &volume);
+        /* y^2 over the box, the triangle and the tetrahedron: b^2 times 1/12, 1/6, 1/10 of the volume */
+        const double moment = element_is_simplex(kernel->type) ? (dim == 2 ? 1.0 / 6 : 1.0 / 10) : 1.0 / 12;
+        const double exact = 1400 / (1 - 0.16) * moment * b * b * volume * k * k / 2;
+        assert_true(fabs(energy / exact - 1) < 1e-4);
+    }
+}
+
+/** Sum of w times a monomial of degree up to @p degree against the integral over the element in natural
+ * coordinates. */
+static void check_rule(enum element_type type, enum quadrature_use use, int degree)
+{
+    const struct quadrature rule = quadrature_of(type, use);
+    const int dim = element_dim(type);
+    for (int i = 0; i <= degree; i++)
+        for (int j = 0; j <= degree; j++)
+            for (int k = 0; k <= (dim == 3 ? degree : 0); k++) {
+                const bool simplex = element_is_simplex(type);
+                double sum = 0, exact = tgamma(i + 1.0) * tgamma(j + 1.0) * tgamma(k + 1.0) /
+                                        tgamma(i + j + k + dim + 1.0);
+                if (simplex && i + j + k > degree)
+                    continue;
+                if (!simplex)
+                    exact = (i % 2 ? 0 : 2.0 / (i + 1)) * (j % 2 ? 0 : 2.0 / (j + 1)) *
+                            (dim < 3 ? 1
+                             : k % 2 ? 0
+                                     : 2.0 / (k + 1));
+                for (int p = 0; p < rule.n; p++)
+                    sum += rule.weight[p] * pow(rule.xi[p][0], i) * pow(rule.xi[p][1], j) *
+                           (dim < 3 ? 1 : pow(rule.xi[p][2], k));
+                assert_true(fabs(sum - exact) < 1e-14);
+            }
+}
+
+static void test_quadrature(void **state)
+{
+    (void)state;
+    const enum element_type tensor[] = {ELEMENT_QUAD8, ELEMENT_QUAD9, ELEMENT_HEX20, ELEMENT_HEX27};
+    for (int k = 0; k < 4; k++) {
+        check_rule(tensor[k], QUADRATURE_STIFFNESS, 5);
+        check_rule(tensor[k], QUADRATURE_MASS, 5);
+    }
+    check_rule(ELEMENT_QUAD4, QUADRATURE_MASS, 3);
+    check_rule(ELEMENT_HEX8, QUADRATURE_STIFFNESS, 3);
+    const enum element_type simplex[] = {ELEMENT_TRI3, ELEMENT_TET4, ELEMENT_TRI6, ELEMENT_TET10};
+    for (int k = 0; k < 4; k++) {
+        check_rule(simplex[k], QUADRATURE_STIFFNESS, k < 2 ? 1 : 2);
+        check_rule(simplex[k], QUADRATURE_MASS, k < 2 ? 2 : 4);
+    }
+    check_rule(ELEMENT_TET10, QUADRATURE_MASS, 5);
+}
+
 static void test_inverted_and_degenerate(void **state)
 {
     (void)state;
@@ -227,7 +306,7 @@ static void test_inverted_and_degenerate(void **state)
         const struct constitutive law = law_of(materials[k % MATERIALS]);
         const struct element_kernel *kernel = element_list[k / MATERIALS];
         const int dim = element_dim(kernel->type), nodes = element_nodes(kernel->type);
-        double X[8][3], data[DATA], d[24] = {0}, f[24];
+        double X[NODES][3], data[DATA], d[DOF] = {0}, f[DOF];
         distorted(kernel, X);
         assert_int_equal(kernel->prepare((const double(*)[3])X, &law, data), 0);
         for (int a = 0; a < nodes; a++)
@@ -246,8 +325,10 @@ static void test_refused(void **state)
     assert_ptr_equal(element_kernel_find(ELEMENT_QUAD4, SOLID_EAS, &reason), &quad4_eas);
     assert_null(element_kernel_find(ELEMENT_TET4, SOLID_F_BAR, &reason));
     assert_non_null(strstr(reason, "constant strain"));
-    assert_null(element_kernel_find(ELEMENT_LINE2, SOLID_FULL, &reason));
-    assert_non_null(strstr(reason, "quad4"));
+    assert_null(element_kernel_find(ELEMENT_QUAD9, SOLID_EAS, &reason));
+    assert_non_null(strstr(reason, "bend without locking"));
+    assert_null(element_kernel_find(ELEMENT_LINE3, SOLID_FULL, &reason));
+    assert_non_null(strstr(reason, "triangles"));
     const struct solid_material soft = {.law = "saint-venant-kirchhoff", .young = 1, .poisson = 0.5};
     assert_non_null(strstr(constitutive_find(soft.law)->check(&soft), "Poisson"));
     assert_null(constitutive_find("hooke"));
@@ -262,6 +343,8 @@ int main(void)
         cmocka_unit_test(test_homogeneous_neo_hookean),
         cmocka_unit_test(test_enhanced_minimum),
         cmocka_unit_test(test_bending_of_one_element),
+        cmocka_unit_test(test_bending_of_quadratic_elements),
+        cmocka_unit_test(test_quadrature),
         cmocka_unit_test(test_inverted_and_degenerate),
         cmocka_unit_test(test_refused),
     };

@@ -7,8 +7,8 @@
 
 #include <stddef.h>
 
-/** Largest numbers of nodes and degrees of freedom of an element. */
-enum { ELEMENT_MAX_NODES = 8, ELEMENT_MAX_DOF = 24 };
+/** Largest number of degrees of freedom of an element. */
+enum { ELEMENT_MAX_DOF = 3 * ELEMENT_MAX_NODES };
 
 /** What an element does, for one type and formulation; history-free. Total Lagrangian: everything that
  * depends on the reference places only is computed once into @c data. Displacements, forces: nodes x dim

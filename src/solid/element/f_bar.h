@@ -16,10 +16,12 @@
  * dd_q = r^2 [(2 h_p h_q + h_pq) S:C + 2 h_p S:B_q + 2 h_q S:B_p + delta_ij G_a S G_b], n h_pq = g_bi g_aj +
  * integral of J (g_ai g_bj - g_bi g_aj) / (V theta) - g0_ai g0_bj  for p = (a, i), q = (b, j). */
 
+enum { F_BAR_MAX_POINTS = 8, F_BAR_MAX_DOF = 24 };
+
 /** What a point needs. */
 struct f_bar_point {
     double F[9], C[VOIGT_MAX], det, r2;
-    double g[ELEMENT_MAX_DOF], h[ELEMENT_MAX_DOF];
+    double g[F_BAR_MAX_DOF], h[F_BAR_MAX_DOF];
 };
 
 /** g_a = F^-T G_a. */
@@ -80,7 +82,7 @@ ALWAYS_INLINE void f_bar_add_stiffness(const int dim, const int nodes, const dou
                                        const double *D, const double *G, double *K)
 {
     const int dof = nodes * dim;
-    double B[VOIGT_MAX * ELEMENT_MAX_DOF], Bbar[VOIGT_MAX * ELEMENT_MAX_DOF], SB[ELEMENT_MAX_DOF];
+    double B[VOIGT_MAX * F_BAR_MAX_DOF], Bbar[VOIGT_MAX * F_BAR_MAX_DOF], SB[F_BAR_MAX_DOF];
     strain_operator(dim, nodes, point->F, G, B);
     for (int q = 0; q < dof; q++) {
         SB[q] = 0;
@@ -123,8 +125,8 @@ ALWAYS_INLINE int f_bar_forces(const int dim, const int nodes, const int points,
                                const struct constitutive *material, const double *d, double *f, double *K)
 {
     const int dof = nodes * dim;
-    struct f_bar_point point[8];
-    double g0[ELEMENT_MAX_DOF], current_volume, factor = 0;
+    struct f_bar_point point[F_BAR_MAX_POINTS];
+    double g0[F_BAR_MAX_DOF], current_volume, factor = 0;
     CALL(f_bar_kinematics(dim, nodes, points, data, d, point, g0, &current_volume));
     memset(f, 0, (size_t)dof * sizeof *f);
     if (K)
@@ -154,8 +156,8 @@ ALWAYS_INLINE double f_bar_energy(const int dim, const int nodes, const int poin
                                   const struct constitutive *material, const double *d, double *stress,
                                   double *volume)
 {
-    struct f_bar_point point[8];
-    double g0[ELEMENT_MAX_DOF], current_volume, energy = 0, total = 0;
+    struct f_bar_point point[F_BAR_MAX_POINTS];
+    double g0[F_BAR_MAX_DOF], current_volume, energy = 0, total = 0;
     if (stress)
         memset(stress, 0, 6 * sizeof *stress);
     if (f_bar_kinematics(dim, nodes, points, data, d, point, g0, &current_volume))
