@@ -51,6 +51,15 @@ static inline void bench_grid(struct bench *bench, int dim, const double *upper,
     bench->mesh.loads = bench->loads;
 }
 
+/** Other elements than quad4 and hex8; formulation "full" unless EAS exists. */
+static inline void bench_convert(struct bench *bench, enum element_type type)
+{
+    if (bench->mesh.mesh.type == type)
+        return;
+    assert_int_equal(mesh_convert(&bench->mesh.mesh, type), 0);
+    bench->mesh.formulation = SOLID_FULL;
+}
+
 static inline int bench_set(const struct bench *bench, const char *name)
 {
     const struct node_set *set = mesh_find_set(&bench->mesh.mesh, name);
