@@ -5,11 +5,26 @@
 #include <string.h>
 
 // VTK cell types and the faces (sides) of the solid ones.
-enum { VTK_VERTEX = 1, VTK_LINE = 3, VTK_TRIANGLE = 5, VTK_QUAD = 9, VTK_TETRA = 10, VTK_HEXAHEDRON = 12 };
+enum {
+    VTK_VERTEX = 1,
+    VTK_LINE = 3,
+    VTK_TRIANGLE = 5,
+    VTK_QUAD = 9,
+    VTK_TETRA = 10,
+    VTK_HEXAHEDRON = 12,
+    VTK_QUADRATIC_TRIANGLE = 22,
+    VTK_QUADRATIC_QUAD = 23,
+    VTK_QUADRATIC_TETRA = 24,
+    VTK_QUADRATIC_HEXAHEDRON = 25,
+    VTK_BIQUADRATIC_QUAD = 28,
+    VTK_TRIQUADRATIC_HEXAHEDRON = 29,
+    FACE_NODES = 8
+};
 
+// Faces go round through the nodes in the middle of their edges.
 struct cell_kind {
     int type, nodes, n_faces, face_nodes;
-    int faces[6][4];
+    int faces[6][FACE_NODES];
 };
 
 static const struct cell_kind kinds[] = {
@@ -20,7 +35,35 @@ static const struct cell_kind kinds[] = {
      8,
      6,
      4,
-     {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}};
+     {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+    {VTK_QUADRATIC_TRIANGLE, 6, 1, 6, {{0, 3, 1, 4, 2, 5}}},
+    {VTK_QUADRATIC_QUAD, 8, 1, 8, {{0, 4, 1, 5, 2, 6, 3, 7}}},
+    {VTK_BIQUADRATIC_QUAD, 9, 1, 8, {{0, 4, 1, 5, 2, 6, 3, 7}}},
+    {VTK_QUADRATIC_TETRA,
+     10,
+     4,
+     6,
+     {{0, 4, 1, 5, 2, 6}, {0, 4, 1, 8, 3, 7}, {1, 5, 2, 9, 3, 8}, {0, 6, 2, 9, 3, 7}}},
+    {VTK_QUADRATIC_HEXAHEDRON,
+     20,
+     6,
+     8,
+     {{0, 8, 1, 9, 2, 10, 3, 11},
+      {4, 12, 5, 13, 6, 14, 7, 15},
+      {0, 8, 1, 17, 5, 12, 4, 16},
+      {1, 9, 2, 18, 6, 13, 5, 17},
+      {2, 10, 3, 19, 7, 14, 6, 18},
+      {3, 11, 0, 16, 4, 15, 7, 19}}},
+    {VTK_TRIQUADRATIC_HEXAHEDRON,
+     27,
+     6,
+     8,
+     {{0, 8, 1, 9, 2, 10, 3, 11},
+      {4, 12, 5, 13, 6, 14, 7, 15},
+      {0, 8, 1, 17, 5, 12, 4, 16},
+      {1, 9, 2, 18, 6, 13, 5, 17},
+      {2, 10, 3, 19, 7, 14, 6, 18},
+      {3, 11, 0, 16, 4, 15, 7, 19}}}};
 
 static const struct colour solid_fill = {206, 209, 214}, edge_colour = {96, 102, 112},
                            wall_fill = {168, 172, 180}, line_colour = {30, 33, 40};
@@ -69,7 +112,7 @@ static void particle_draw(struct canvas *canvas, const struct scene *scene, cons
 }
 
 // How bright a face is in 3-D: by its normal, lit from the viewer's side.
-static double face_light(const double corners[4][3])
+static double face_light(const double corners[3][3])
 {
     double a[3], b[3];
     for (int c = 0; c < 3; ++c) {
@@ -81,11 +124,27 @@ static double face_light(const double corners[4][3])
     return length > 0.0 ? 0.55 + 0.45 * fabs(n[2]) / length : 1.0;
 }
 
+// Fill a polygon: triangles and quads by their halves, others by triangles about the mean of their corners.
+static void polygon_fill(struct canvas *canvas, const double (*corners)[3], int n, struct colour colour)
+{
+    double triangle[3][3] = {{0}};
+    for (int k = 0; n > 4 && k < n; ++k)
+        for (int c = 0; c < 3; ++c)
+            triangle[0][c] += corners[k][c] / n;
+    if (n <= 4)
+        memcpy(triangle[0], corners[0], sizeof triangle[0]);
+    for (int k = n > 4 ? 0 : 1; k < (n > 4 ? n : n - 1); ++k) {
+        memcpy(triangle[1], corners[k], sizeof triangle[1]);
+        memcpy(triangle[2], corners[(k + 1) % n], sizeof triangle[2]);
+        canvas_triangle(canvas, (const double(*)[3])triangle, colour);
+    }
+}
+
 static void face_draw(struct canvas *canvas, const struct scene *scene, const struct scene_part *part,
                       const struct picture_frame *frame, const struct cell_kind *kind, const int64_t *nodes,
                       const int *face)
 {
-    double corners[4][3], sum = 0.0;
+    double corners[FACE_NODES][3], sum = 0.0;
     int n = kind->face_nodes;
     for (int k = 0; k < n; ++k) {
         place(scene, part, frame, nodes[face[k]], layer_solid, corners[k]);
@@ -94,13 +153,13 @@ static void face_draw(struct canvas *canvas, const struct scene *scene, const st
     bool fill = scene->dim < 3 || strncmp(part->name, "solid", 5) == 0;
     if (fill) {
         struct colour colour = part->values ? value_colour(frame, sum / n) : solid_fill;
-        if (scene->dim == 3)
-            colour = colour_shade(colour, face_light((const double(*)[3])corners));
-        canvas_triangle(canvas, (const double(*)[3])corners, colour);
-        if (n == 4) {
-            memcpy(corners[1], corners[0], sizeof corners[0]); // the other half: 0 2 3
-            canvas_triangle(canvas, (const double(*)[3])(corners + 1), colour);
+        if (scene->dim == 3) {
+            double plane[3][3]; // three corners: with nodes in between every second one
+            for (int k = 0; k < 3; ++k)
+                memcpy(plane[k], corners[n > 4 ? 2 * k : k], sizeof plane[k]);
+            colour = colour_shade(colour, face_light((const double(*)[3])plane));
         }
+        polygon_fill(canvas, (const double(*)[3])corners, n, colour);
     }
     for (int k = 0; k < n; ++k) {
         double from[3], to[3], width = fmax(0.5, 0.05 * frame->letter);

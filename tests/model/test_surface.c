@@ -165,6 +165,35 @@ static void test_added_mass(void **state)
     teardown(&f);
 }
 
+/** Motion and load of a piece of a curved side belong to the whole side: line3 with nodes 0, 1 and 2 in the
+ * middle, by hand at xi = -0.3 and 0.4. */
+static void test_spread(void **state)
+{
+    (void)state;
+    struct fixture f;
+    setup(&f);
+    int32_t points[SIDE_MAX_NODES];
+    double weights[SIDE_MAX_NODES] = {0.3, 0.7};
+    assert_int_equal(surface_spread(f.surface, 1, points, weights), 2);
+    assert_true(points[0] == 1 && points[1] == 2 && weights[0] == 0.3 && weights[1] == 0.7);
+    surface_destroy(f.surface);
+    int32_t sides[2][SIDE_MAX_NODES] = {{0, 1, 2, -1, -1, -1, -1, -1, -1}, {0, 1, 2, -1, -1, -1, -1, -1, -1}};
+    memcpy(f.nodes, (int32_t[2][4]){{0, 2, -1, -1}, {2, 1, -1, -1}}, sizeof f.nodes);
+    f.definition.built.sides = sides;
+    assert_int_equal(surface_create(&f.surface, &f.model, 0, 0.5), 0);
+    const double expected[2][3] = {{0.195, -0.105, 0.91}, {-0.12, 0.28, 0.84}};
+    for (int facet = 0; facet < 2; facet++) {
+        weights[0] = facet ? 0.6 : 0.3;
+        weights[1] = 1 - weights[0];
+        assert_int_equal(surface_spread(f.surface, (size_t)facet, points, weights), 3);
+        for (int k = 0; k < 3; k++) {
+            assert_int_equal(points[k], k);
+            assert_true(fabs(weights[k] - expected[facet][k]) < 1e-15);
+        }
+    }
+    teardown(&f);
+}
+
 static void test_analytic(void **state)
 {
     (void)state;
@@ -189,8 +218,8 @@ static void test_analytic(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_create),     cmocka_unit_test(test_levels),   cmocka_unit_test(test_loads),
-        cmocka_unit_test(test_added_mass), cmocka_unit_test(test_analytic),
+        cmocka_unit_test(test_create),     cmocka_unit_test(test_levels), cmocka_unit_test(test_loads),
+        cmocka_unit_test(test_added_mass), cmocka_unit_test(test_spread), cmocka_unit_test(test_analytic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "model/surface.h"
 #include "model/surface_build.h"
 
 #include <math.h>
@@ -137,9 +138,77 @@ static void test_3d(void **state)
     surface_build_reset(&surface);
 }
 
+/** Quadratic meshes of all kinds: the facets are closed, know their sides, and spread a place linearly over
+ * the side's points so that it is the same place (the sides are straight). An own part beside them stands for
+ * itself. */
+static void test_curved_sides(void **state)
+{
+    (void)state;
+    const enum element_type types[] = {ELEMENT_TRI6,  ELEMENT_QUAD8, ELEMENT_QUAD9,
+                                       ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27};
+    for (size_t t = 0; t < sizeof types / sizeof types[0]; t++) {
+        const int dim = element_dim(types[t]);
+        struct model_mesh mesh = {.name = "block"};
+        assert_int_equal(mesh_create_grid(&mesh.mesh, dim, (double[3]){0.3, 0.1, -0.2},
+                                          (double[3]){0.7, 0.4, 0.5}, (int[3]){2, 3, 1}),
+                         0);
+        assert_int_equal(mesh_convert(&mesh.mesh, types[t]), 0);
+        double points[3][3] = {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
+        int32_t nodes[1][4] = {{0, 1, dim == 3 ? 2 : -1, -1}};
+        struct surface_part parts[2] = {
+            {.mesh = -1,
+             .exclude_set = -1,
+             .facets = {.dim = dim, .n_points = 3, .n_facets = 1, .points = points, .nodes = nodes}},
+            {.mesh = 0, .exclude_set = -1}};
+        struct model_surface definition = {
+            .name = "wet", .kind = SURFACE_FACETS, .n_parts = 2, .parts = parts};
+        const struct model model = {.path = "deck.xml",
+                                    .dim = dim,
+                                    .n_meshes = 1,
+                                    .meshes = &mesh,
+                                    .n_surfaces = 1,
+                                    .surfaces = &definition};
+        assert_int_equal(surface_build(&model, &definition), 0);
+        assert_int_equal(open_ends(&definition.built), dim == 2 ? 2 : 3); // those of the own part
+        assert_non_null(definition.built.sides);
+        assert_int_equal(definition.built.sides[0][0], -1);
+        struct surface *surface;
+        assert_int_equal(surface_create(&surface, &model, 0, 0.0), 0);
+        for (size_t f = 0; f < surface->n_facets; f++) {
+            int n = 0;
+            while (n < 4 && surface->nodes[f][n] >= 0)
+                n++;
+            double weights[SIDE_MAX_NODES] = {0.2, 0.3, 0.5}, place[3] = {0}, sum = 0;
+            if (n == 2)
+                weights[0] = 0.7;
+            if (n == 4) { /* bilinear at (0.2, -0.4) */
+                const double bilinear[4] = {0.28, 0.42, 0.18, 0.12};
+                memcpy(weights, bilinear, sizeof bilinear);
+            }
+            for (int j = 0; j < n; j++)
+                for (int k = 0; k < 3; k++)
+                    place[k] += weights[j] * surface->X[surface->nodes[f][j]][k];
+            int32_t spread[SIDE_MAX_NODES];
+            const int m = surface_spread(surface, f, spread, weights);
+            assert_int_equal(m, f == 0 ? n : element_nodes(side_type(dim, definition.built.sides[f])));
+            for (int j = 0; j < m; j++) {
+                sum += weights[j];
+                for (int k = 0; k < 3; k++)
+                    place[k] -= weights[j] * surface->X[spread[j]][k];
+            }
+            assert_true(fabs(sum - 1) < 1e-14);
+            assert_true(fabs(place[0]) + fabs(place[1]) + fabs(place[2]) < 1e-14);
+        }
+        surface_destroy(surface);
+        surface_build_reset(&definition);
+        mesh_reset(&mesh.mesh);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_beam_on_cylinder),
-                                       cmocka_unit_test(test_within_part), cmocka_unit_test(test_3d)};
+                                       cmocka_unit_test(test_within_part), cmocka_unit_test(test_3d),
+                                       cmocka_unit_test(test_curved_sides)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "base/error.h"
+#include "model/mesh.h"
 #include "output/colour_map.h"
 #include "output/lettering.h"
 #include "output/picture.h"
@@ -292,6 +293,73 @@ static void test_solid_alone(void **state)
     free(image.rgb);
 }
 
+// One element of a quadratic type over 0.4..0.6 x 0.1..0.2 (a triangle: its lower left half); the middle of
+// its lower edge hangs down to 0.06. The values at all nodes are 0.5.
+static void curved_write(const struct folder *folder, struct pvd *pvd, enum element_type type)
+{
+    const int n = element_nodes(type), dim = element_dim(type);
+    double x[ELEMENT_MAX_NODES][3] = {{0}}, d[ELEMENT_MAX_NODES][3] = {{0}};
+    int64_t nodes[ELEMENT_MAX_NODES];
+    const int64_t offset = n;
+    const uint8_t cell = (uint8_t)element_vtk(type);
+    for (int a = 0; a < n; a++) {
+        double xi[3];
+        const bool simplex = element_is_simplex(type);
+        element_node(type, a, xi);
+        x[a][0] = 0.4 + 0.2 * (simplex ? xi[0] : 0.5 * (xi[0] + 1));
+        x[a][1] = 0.1 + 0.1 * (simplex ? xi[1] : 0.5 * (xi[1] + 1));
+        x[a][2] = dim == 3 ? 0.1 * (simplex ? xi[2] : 0.5 * (xi[2] + 1)) : 0;
+        if (fabs(x[a][0] - 0.5) < 1e-9 && x[a][1] < 0.1 + 1e-9)
+            x[a][1] = 0.06;
+        d[a][0] = 0.5;
+        nodes[a] = a;
+    }
+    const struct vtu_array points[] = {array("Displacement", 3, d)};
+    const struct vtu_grid grid = {.n_points = (size_t)n,
+                                  .n_cells = 1,
+                                  .n_connectivity = (size_t)n,
+                                  .points = x,
+                                  .points_type = VTU_FLOAT64,
+                                  .connectivity = nodes,
+                                  .offsets = &offset,
+                                  .types = &cell,
+                                  .n_point_arrays = 1,
+                                  .point_arrays = points};
+    grid_write(folder, pvd, "solid-beam", 1, 0, &grid);
+}
+
+// Quadratic elements are drawn through the nodes in the middle of their edges.
+static void test_curved(void **state)
+{
+    const struct folder *folder = *state;
+    const enum element_type types[] = {ELEMENT_TRI6,  ELEMENT_QUAD8, ELEMENT_QUAD9,
+                                       ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27};
+    char path[256];
+    mkdir(folder_file(folder, "fields", path), 0777);
+    for (size_t k = 0; k < sizeof types / sizeof types[0]; k++) {
+        struct pvd pvd;
+        assert_int_equal(pvd_create(&pvd, folder_file(folder, "channel.pvd", path)), 0);
+        curved_write(folder, &pvd, types[k]);
+        assert_int_equal(pvd_write(&pvd), 0);
+        pvd_reset(&pvd);
+        struct picture picture = picture_of(folder, folder_file(folder, "a.png", path));
+        picture.field = "Displacement";
+        picture.range[0] = 0;
+        picture.range[1] = 1;
+        assert_int_equal(picture_draw(&picture), 0);
+        struct image image = image_read(path);
+        const struct colour white = {255, 255, 255}, half = colour_map(0.5);
+        const bool shaded = element_dim(types[k]) == 3;
+        assert_colour(&image, left + scale * 0.47, top + scale * (0.3 - 0.12), half, shaded ? 90 : 2);
+        assert_colour(&image, left + scale * 0.49, top + scale * (0.3 - 0.08), half, shaded ? 90 : 2);
+        const uint8_t *bulge =
+            image.rgb + 3 * ((size_t)(top + scale * 0.22) * 1000 + (size_t)(left + scale * 0.49));
+        assert_true(bulge[0] + bulge[1] + bulge[2] < 600);
+        assert_colour(&image, left + scale * 0.42, top + scale * (0.3 - 0.07), white, 0);
+        free(image.rgb);
+    }
+}
+
 // In 3-D the nearest layer is seen; a slab takes others away.
 static void test_space(void **state)
 {
@@ -396,6 +464,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_frames, folder_enter, folder_leave),
         cmocka_unit_test_setup_teardown(test_fields, folder_enter, folder_leave),
         cmocka_unit_test_setup_teardown(test_solid_alone, folder_enter, folder_leave),
+        cmocka_unit_test_setup_teardown(test_curved, folder_enter, folder_leave),
         cmocka_unit_test_setup_teardown(test_space, folder_enter, folder_leave),
         cmocka_unit_test_setup_teardown(test_errors, folder_enter, folder_leave),
         cmocka_unit_test(test_colours),

@@ -12,7 +12,8 @@ MATERIALS = """<materials>
   <fluid name="water" density="1.1" kinematic-viscosity="0.02" sound-speed="c" background-pressure="c^2"/>%s
 </materials>
 """
-RUBBER = '\n  <solid name="rubber" density="11" young="%d" poisson="0.35"/>'
+RUBBER = '\n  <solid name="rubber" law="%s" density="11" young="%d" poisson="0.35"/>'
+LAWS = ("saint-venant-kirchhoff", "neo-hookean")
 
 YOUNG = {2: 4000, 3: 40000}
 
@@ -111,8 +112,8 @@ def beam(dim, element, formulation, moving=""):
     """A block that is held at its foot, amid the fluid."""
     lower, upper = [0.45, 0.15, 0.1][:dim], [0.6, 0.35, 0.25][:dim]
     vector = lambda x: " ".join("%g" % v for v in x)
-    shape = {"quad4": '<grid lower="%s" upper="%s" cells="2 3"/>' % (vector(lower), vector(upper)),
-             "hex8": '<grid lower="%s" upper="%s" cells="2 2 2"/>' % (vector(lower), vector(upper))}.get(element)
+    cells = {"quad4": "2 3", "hex8": "2 2 2"}.get(element, "1 2" if dim == 2 else "1 1 1")
+    shape = '<grid type="%s" lower="%s" upper="%s" cells="%s"/>' % (element, vector(lower), vector(upper), cells)
     if element == "tri3":
         shape = inline(*triangles(2, 3, lower, upper), element)
     if element == "tet4":
@@ -134,7 +135,7 @@ def channel(dim, part):
     lower, upper = (["0", "-4*dx", "0"] if periodic else ["-0.3", "-4*dx", "0"]), \
         (["1", "0.5+4*dx", "0.35"] if periodic else ["1.3", "0.5+4*dx", "0.35"])
     text = head(dim, ["3" if periodic else "0", "-1", "0.3"], lower, upper,
-                ("x " if periodic else "") + ("z" if dim == 3 else ""), RUBBER % YOUNG[dim] if solid else "")
+                ("x " if periodic else "") + ("z" if dim == 3 else ""), RUBBER % (part.get("law", LAWS[0]), YOUNG[dim]) if solid else "")
     box = '<box lower="%s" upper="%s"/>'
     region = box % (" ".join(["0", "0", "0"][:dim]), " ".join(["1", "0.5", "0.35"][:dim]))
     if solid:
@@ -240,7 +241,7 @@ def burst(part):
 """ + OUTPUT % '  <history name="force" type="force" surfaces="wall"/>\n'
 
 
-def alone(dim, element, formulation, support):
+def alone(dim, element, formulation, support, law=LAWS[0]):
     """A solid without fluid."""
     moving_support = ('<translation value="%s"/>' % " ".join(["0.05*sin(9*t)", "0.03*t", "0"][:dim])
                       if support == "moving" else "")
@@ -248,7 +249,7 @@ def alone(dim, element, formulation, support):
 <parameters><parameter name="dt" value="0.004"/><parameter name="end" value="1000*dt"/></parameters>
 <time end="end" step="dt"><body-force value="%s"/></time>
 <materials>%s</materials>
-""" % (dim, " ".join(["2*cos(t)", "-3", "1"][:dim]), RUBBER % 800) + beam(dim, element, formulation, moving_support)
+""" % (dim, " ".join(["2*cos(t)", "-3", "1"][:dim]), RUBBER % (law, 800)) + beam(dim, element, formulation, moving_support)
             + OUTPUT.replace(' virtual-particles="3 40"', "").replace(' arrays="Vorticity Acceleration Support"', "")
             % '  <history name="tip" type="point" mesh="beam" at="%s"/>\n  <history name="energy" type="energy"/>\n'
             % " ".join(["0.52", "0.35", "0.2"][:dim]))
@@ -261,7 +262,7 @@ def apart(dim, part):
     """A fluid and a solid that do not touch."""
     text = channel(dim, dict(part, ends="periodic", element=None))
     mesh = beam(dim, part["element"], part["solid"])
-    text = text.replace("</materials>", (RUBBER % YOUNG[dim]).strip() + "\n</materials>", 1).replace("<surfaces>", mesh + "<surfaces>", 1)
+    text = text.replace("</materials>", (RUBBER % (LAWS[0], YOUNG[dim])).strip() + "\n</materials>", 1).replace("<surfaces>", mesh + "<surfaces>", 1)
     return text.replace("</output>", '  <history name="tip" type="point" mesh="beam" at="%s"/>\n</output>'
                         % " ".join(["0.52", "0.35", "0.2"][:dim]), 1)
 
@@ -274,6 +275,10 @@ def all_decks(skerry, everything):
     schemes = [scheme for scheme in known["coupling"]["scheme"] if scheme != "none"]
     accelerations = known["coupling"]["acceleration"]
     ends = ["periodic"] + known["outflow"]["velocity"]
+    laws = known["solid-material"]["law"]
+    assert laws[0] == LAWS[0]
+    kinds = {dim: [kind for kind in known["grid"]["type"] if kind.startswith(start)]
+             for dim, start in ((2, ("tri", "quad")), (3, ("tet", "hex")))}
     arithmetics = itertools.cycle(known["fluid"]["arithmetic"])
 
     def named(kind, make, **part):
@@ -305,6 +310,10 @@ def all_decks(skerry, everything):
                 changed = sum(part[key] != first[key] for key in part)
                 if dim == 2 or everything or changed <= 1 or (changed == 2 and end != ends[0] and wall != treatments[0]):
                     yield named(kind, make, **part)
+            for element in kinds[dim]:
+                yield named(kind, make, **dict(first, element=element, solid="full"))
+            for law in laws[1:]:
+                yield named(kind, make, **dict(first, law=law))
             for wall, wet, corners, gradient in itertools.product(
                     treatments, treatments, known["wall"]["corners"], known["wall"]["pressure-gradient"]):
                 if dim == 2 or everything or wall != treatments[0]:
@@ -315,8 +324,9 @@ def all_decks(skerry, everything):
     others = "".join("\n" + mesh.replace('"beam"', '"beam%s"' % end) for end in ("-state", "-cells", "..b"))
     yield "alone2-names", one.replace(mesh, mesh + others)
     for dim in (2, 3):
-        for element, solid, support in itertools.product(ELEMENTS[dim], known["mesh"]["formulation"], ("fixed", "moving")):
-            yield "alone%d-%s-%s-%s" % (dim, element, solid, support), alone(dim, element, solid, support)
+        for element, solid, law, support in itertools.product(kinds[dim], known["mesh"]["formulation"], laws, ("fixed", "moving")):
+            yield ("alone%d-%s-%s-%s-%s" % (dim, element, solid, law, support),
+                   alone(dim, element, solid, support, law))
 
 
 def distinct(skerry, everything=False):
