@@ -17,6 +17,11 @@ dist_check_SCRIPTS += tests/system/test_resume.sh
 EXTRA_DIST += tests/system/test_resume.py tests/system/resume_decks.py
 TESTS += tests/system/test_resume.sh
 
+# Kinds of elements and laws.
+dist_check_SCRIPTS += tests/system/test_elements.sh
+EXTRA_DIST += tests/system/test_elements.py
+TESTS += tests/system/test_elements.sh
+
 # Faults from outside.
 dist_check_SCRIPTS += tests/system/test_faults.sh
 EXTRA_DIST += tests/system/test_faults.py
