@@ -20,6 +20,14 @@ const struct coupling_type *coupling_choose(const struct model *model)
     return NULL;
 }
 
+static int quasi_newton_begin(struct coupling *coupling, const struct model_coupling *definition)
+{
+    CHECK_MEMORY(coupling->answer = memory_create(3 * coupling->n_dof, sizeof *coupling->answer));
+    CHECK_MEMORY(coupling->iterate = memory_create(3 * coupling->n_dof, sizeof *coupling->iterate));
+    return quasi_newton_create(&coupling->quasi_newton, coupling->n_dof, definition->relaxation,
+                               definition->reused_steps, definition->filter);
+}
+
 static int acceleration_create(struct coupling *coupling, const struct model_coupling *definition)
 {
     const char *name = definition->acceleration ? definition->acceleration : "added-mass";
@@ -29,6 +37,10 @@ static int acceleration_create(struct coupling *coupling, const struct model_cou
     coupling->added_mass = !strcmp(name, "added-mass");
     coupling->difference = memory_create(coupling->n_dof, sizeof *coupling->difference);
     CHECK_MEMORY(coupling->difference);
+    coupling->load_before = memory_create(coupling->n_points, sizeof *coupling->load_before);
+    CHECK_MEMORY(coupling->load_before);
+    if (!strcmp(name, "iqn-ils") && coupling->n_dof > 0)
+        CALL(quasi_newton_begin(coupling, definition));
     return relaxation_create(&coupling->relaxation, kind, definition->relaxation, coupling->n_dof);
 }
 
@@ -51,10 +63,12 @@ int coupling_create(struct coupling **coupling, const struct model *model, const
     c->parts = *parts;
     c->definition = &model->coupling;
     c->type = coupling_choose(model);
+    c->unit_of_force = model->dim == 2 ? "N/m" : "N";
     state_register(c);
     for (size_t s = 0; s < parts->n_surfaces; ++s)
         if (parts->surfaces[s]->coupled)
-            c->n_dof += (size_t)model->dim * parts->surfaces[s]->n_points;
+            c->n_points += parts->surfaces[s]->n_points;
+    c->n_dof = (size_t)model->dim * c->n_points;
     int status = c->type ? acceleration_create(c, c->definition) : STATUS_DECK;
     if (status) {
         coupling_destroy(c);
@@ -69,7 +83,11 @@ void coupling_destroy(struct coupling *coupling)
     if (!coupling)
         return;
     relaxation_destroy(coupling->relaxation);
+    quasi_newton_destroy(coupling->quasi_newton);
     memory_free(coupling->difference);
+    memory_free(coupling->answer);
+    memory_free(coupling->iterate);
+    memory_free(coupling->load_before);
     memory_free(coupling);
 }
 
@@ -92,6 +110,8 @@ int coupling_state(struct coupling *coupling, struct field_list *list)
 {
     const struct coupling_parts *parts = &coupling->parts;
     CALL(field_list_add(list, &coupling->state));
+    if (coupling->quasi_newton)
+        CALL(field_list_add(list, &coupling->quasi_newton->state));
     for (size_t k = 0; k < parts->n_surfaces; ++k)
         CALL(field_list_add(list, &parts->surfaces[k]->fields));
     for (size_t k = 0; k < parts->n_solids; ++k)

@@ -3,6 +3,7 @@
 #define COUPLING_COUPLING_H
 
 #include "base/timer.h"
+#include "coupling/quasi_newton.h"
 #include "coupling/relaxation.h"
 #include "fluid/fluid.h"
 #include "model/model.h"
@@ -32,12 +33,16 @@ struct coupling {
     const struct coupling_type *type;
     const struct model_coupling *definition;
     struct coupling_parts parts;
-    bool added_mass;               /**< use the surfaces' added-mass operators */
-    struct relaxation *relaxation; /**< of the displacements of all coupled surfaces */
-    size_t n_dof;                  /**< dim x points of the coupled surfaces, clamped ones too */
-    double *difference;            /**< trial minus level 1, n_dof entries */
-    int iterations;                /**< of the last step: calls of fluid_interface */
-    double residual;               /**< of the last step: eq. 46, m/s */
+    bool added_mass;                   /**< use the surfaces' added-mass operators */
+    struct relaxation *relaxation;     /**< of the displacements of all coupled surfaces */
+    struct quasi_newton *quasi_newton; /**< instead of relaxation; NULL: none */
+    size_t n_points, n_dof;            /**< of the coupled surfaces, clamped ones too; n_dof = dim n_points */
+    double *difference;                /**< trial minus level 1, n_dof entries */
+    double *answer, *iterate;          /**< x, v, a of trial and level 1 for quasi_newton, 3 n_dof each */
+    double (*load_before)[3];          /**< loads of the iteration before, n_points rows */
+    const char *unit_of_force;
+    int iterations;  /**< of the last step: calls of fluid_interface */
+    double residual; /**< of the last step: eq. 46, m/s */
     int64_t total_iterations, steps;
     double t_end;           /**< end of the last step, s */
     double wall_impulse[3]; /**< of the fluid on all surfaces since the start, N s (2-D: N s/m) */

@@ -5,9 +5,10 @@
  * each with the newest load. */
 #include "base/error.h"
 #include "coupling/coupling_list.h"
+#include "coupling/interface.h"
 
 #include <math.h>
-#include <string.h>
+#include <stdio.h>
 
 static int fixed_point_check(const struct model *model)
 {
@@ -19,49 +20,40 @@ static int fixed_point_check(const struct model *model)
     return 0;
 }
 
-/** Trial minus level 1 of all coupled surfaces; returns eq. 46: its norm by the step and the root of the
- * number of entries. */
-static double difference_take(struct coupling *coupling, double dt)
+/** Whether what the deck asks for holds; @p change is that of the loads. */
+static bool converged(const struct coupling *coupling, double change)
 {
-    double *difference = coupling->difference, square = 0.0;
-    for (size_t s = 0; s < coupling->parts.n_surfaces; ++s) {
-        const struct surface *surface = coupling->parts.surfaces[s];
-        for (size_t p = 0; p < surface->n_points && surface->coupled; ++p)
-            for (int d = 0; d < surface->dim; ++d) {
-                double r = surface->mesh[p] < 0 ? 0.0 : surface->trial.x[p][d] - surface->level[1].x[p][d];
-                *difference++ = r;
-                square += r * r;
-            }
-    }
-    return sqrt(square / (double)coupling->n_dof) / dt;
+    const struct model_coupling *definition = coupling->definition;
+    const bool displacement = definition->tolerance == 0.0 || coupling->residual < definition->tolerance;
+    const bool force = definition->force_tolerance == 0.0 ||
+                       (coupling->iterations > 1 && change < definition->force_tolerance);
+    return displacement && force;
 }
 
-static void rows_blend(double (*level)[3], const double (*trial)[3], size_t p, double factor)
+static int report_divergence(const struct coupling *coupling, double t, double change)
 {
-    for (int d = 0; d < 3; ++d)
-        level[p][d] = factor == 1.0 ? trial[p][d] : level[p][d] + factor * (trial[p][d] - level[p][d]);
-}
-
-/** Level 1 of the points that solids move towards their trial. */
-static void level_update(struct coupling *coupling, double factor)
-{
-    for (size_t s = 0; s < coupling->parts.n_surfaces; ++s) {
-        struct surface *surface = coupling->parts.surfaces[s];
-        for (size_t p = 0; p < surface->n_points && surface->coupled; ++p) {
-            if (surface->mesh[p] < 0)
-                continue;
-            rows_blend(surface->level[1].x, (const double(*)[3])surface->trial.x, p, factor);
-            rows_blend(surface->level[1].v, (const double(*)[3])surface->trial.v, p, factor);
-            rows_blend(surface->level[1].a, (const double(*)[3])surface->trial.a, p, factor);
-        }
-    }
+    const struct model_coupling *definition = coupling->definition;
+    char displacement[64] = "", force[96] = "";
+    if (definition->tolerance > 0.0)
+        snprintf(displacement, sizeof displacement, ", tolerance %g m/s", definition->tolerance);
+    if (definition->force_tolerance > 0.0)
+        snprintf(force, sizeof force, ", change of the force %g, force-tolerance %g %s", change,
+                 definition->force_tolerance, coupling->unit_of_force);
+    return error_report(
+        STATUS_NUMERICAL,
+        "the coupling did not converge at t = %g s: residual %g m/s after %d iterations%s%s; try "
+        "acceleration=\"added-mass\", a smaller step or more iterations",
+        t, coupling->residual, coupling->iterations, displacement, force);
 }
 
 static int iterate(struct coupling *coupling, double t, double dt)
 {
     struct coupling_parts *parts = &coupling->parts;
-    const int limit = coupling->definition->iterations;
+    const struct model_coupling *definition = coupling->definition;
+    double change = 0.0;
     relaxation_restart(coupling->relaxation);
+    if (coupling->quasi_newton)
+        quasi_newton_restart(coupling->quasi_newton);
     for (coupling->iterations = 1;; ++coupling->iterations) {
         CALL(fluid_interface(parts->fluid, coupling->iterations > 1));
         if (coupling->iterations == 1 && coupling->added_mass)
@@ -70,16 +62,19 @@ static int iterate(struct coupling *coupling, double t, double dt)
         for (size_t k = 0; k < parts->n_solids; ++k)
             CALL(solid_correct(parts->solids[k], coupling->added_mass));
         timer_lap(parts->timer, TIMER_SOLID, &since);
-        coupling->residual = difference_take(coupling, dt);
-        level_update(coupling, relaxation_factor(coupling->relaxation, coupling->difference));
+        coupling->residual = interface_difference(coupling, dt);
+        if (definition->force_tolerance > 0.0)
+            change = interface_load_change(coupling);
+        const bool finite = isfinite(coupling->residual) && isfinite(change);
+        if (finite && coupling->quasi_newton)
+            interface_extrapolate(coupling);
+        else if (finite)
+            interface_blend(coupling, relaxation_factor(coupling->relaxation, coupling->difference));
         timer_lap(parts->timer, TIMER_COUPLING, &since);
-        if (coupling->residual < coupling->definition->tolerance)
+        if (finite && converged(coupling, change))
             return 0;
-        CHECK(coupling->iterations < limit && isfinite(coupling->residual), STATUS_NUMERICAL,
-              "the coupling did not converge at t = %g s: residual %g m/s after %d iterations, tolerance %g "
-              "m/s; try "
-              "acceleration=\"added-mass\", a smaller step or more iterations",
-              t + dt, coupling->residual, coupling->iterations, coupling->definition->tolerance);
+        if (!finite || coupling->iterations >= definition->iterations)
+            return report_divergence(coupling, t + dt, change);
     }
 }
 

@@ -20,6 +20,38 @@ static bool fluid_meets_solid(const struct model *model)
     return false;
 }
 
+/** What belongs to one acceleration only: filled in for it, refused with others. */
+static void read_quasi_newton(struct deck *deck, struct deck_node *node, struct model_coupling *coupling)
+{
+    static const char *const names[] = {"reused-steps", "filter"}, *const defaults[] = {"5", "1e-2"};
+    const bool chosen = coupling->acceleration && strcmp(coupling->acceleration, "iqn-ils") == 0;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        if (!chosen && deck_has(node, names[k]))
+            deck_error(deck, node, names[k], "%s goes with acceleration=\"iqn-ils\" only", names[k]);
+        else if (chosen && !deck_has(node, names[k]))
+            deck_fill(deck, node, names[k], "%s", defaults[k]);
+    }
+    if (!chosen)
+        return;
+    coupling->reused_steps = deck_integer(deck, node, "reused-steps");
+    coupling->filter = deck_real(deck, node, "filter");
+    if (coupling->filter >= 1.0)
+        deck_error(deck, node, "filter", "filter=\"%.9g\" would forget everything; it must be less than 1",
+                   coupling->filter);
+}
+
+/** When the iteration stops. */
+static void read_criteria(struct deck *deck, struct deck_node *node, struct model_coupling *coupling)
+{
+    if (!deck_has(node, "tolerance") && !deck_has(node, "force-tolerance"))
+        deck_fill(deck, node, "tolerance", "1e-8");
+    if (deck_has(node, "tolerance"))
+        coupling->tolerance = deck_real(deck, node, "tolerance");
+    if (deck_has(node, "force-tolerance"))
+        coupling->force_tolerance = deck_real(deck, node, "force-tolerance");
+    coupling->iterations = deck_integer(deck, node, "iterations");
+}
+
 int deck_read_coupling(struct deck *deck)
 {
     struct deck_node *node = deck_child(deck->root, SCHEMA_COUPLING);
@@ -31,10 +63,12 @@ int deck_read_coupling(struct deck *deck)
         deck_fill(deck, node, "scheme", "%s", meet ? "fixed-point" : "none");
     coupling->where = node->where;
     coupling->scheme = deck_word(deck, node, "scheme");
-    coupling->tolerance = deck_real(deck, node, "tolerance");
-    coupling->iterations = deck_integer(deck, node, "iterations");
+    read_criteria(deck, node, coupling);
     coupling->acceleration = deck_word(deck, node, "acceleration");
     coupling->relaxation = deck_real(deck, node, "relaxation");
+    read_quasi_newton(deck, node, coupling);
+    const int predictor = deck_choice(deck, node, "predictor");
+    coupling->predictor = predictor < 0 ? PREDICTOR_LINEAR : (enum predictor)predictor;
     const bool none = coupling->scheme && strcmp(coupling->scheme, "none") == 0;
     if (deck->n_problems > 0) // surfaces or walls may be missing
         return deck->status;

@@ -377,16 +377,36 @@ static const struct schema_attribute coupling_attributes[] = {
     {"scheme", SCHEMA_CHOICE, .choices = "fixed-point|none",
      .doc = "how fluid and solid meet; default: fixed-point where a wall has the skin of a mesh, otherwise "
             "none"},
-    {"tolerance", SCHEMA_REAL, .range = RANGE_POSITIVE, .fallback = "1e-8", .unit = "m/s",
+    {"tolerance", SCHEMA_REAL, .range = RANGE_POSITIVE, .unit = "m/s",
      .doc = "change of the interface displacement in one iteration, by step length and root of the number of "
-            "degrees of "
-            "freedom, at which the iteration stops"},
+            "degrees of freedom, at which the iteration stops; default: 1e-8, or not looked at where only "
+            "force-tolerance is given"},
+    {"force-tolerance", SCHEMA_REAL, .range = RANGE_POSITIVE, .unit = "N", .unit_2d = "N/m",
+     .doc = "change of the forces on the interface nodes (root of the sum of squares) from one iteration to "
+            "the next at which the iteration stops; with tolerance both must hold; default: not looked at"},
     {"iterations", SCHEMA_INTEGER, .range = RANGE_POSITIVE, .fallback = "50",
      .doc = "most iterations in a step"},
-    {"acceleration", SCHEMA_CHOICE, .choices = "added-mass|aitken|constant|none", .fallback = "added-mass",
-     .doc = "what makes the iteration converge fast"},
+    {"acceleration", SCHEMA_CHOICE, .choices = "added-mass|iqn-ils|aitken|constant|none",
+     .fallback = "added-mass",
+     .doc = "what makes the iteration converge fast: the fluid's added mass in the solid's equations, a "
+            "quasi-Newton method that learns from the iterations of this step and the last ones, or "
+            "relaxation"},
     {"relaxation", SCHEMA_REAL, .range = RANGE_POSITIVE, .fallback = "1",
-     .doc = "relaxation factor: the only one of constant, the first one of aitken"},
+     .doc = "relaxation factor: the only one of constant, the first one of aitken, that of iqn-ils as long "
+            "as there is nothing to learn from"},
+    {"reused-steps", SCHEMA_INTEGER, .range = RANGE_NOT_NEGATIVE,
+     .doc = "acceleration=\"iqn-ils\": earlier steps it learns from; default: 5"},
+    {"filter", SCHEMA_REAL, .range = RANGE_POSITIVE,
+     .doc =
+         "acceleration=\"iqn-ils\": what an iteration changed is forgotten if less than this part of it "
+         "is independent of what newer ones changed (the smaller, the more is learned, and the less robust); "
+         "less than 1; default: 1e-2"},
+    {"predictor", SCHEMA_CHOICE, .choices = "linear-acceleration|constant-acceleration|zero-acceleration",
+     .fallback = "linear-acceleration",
+     .doc =
+         "acceleration of the solid with which a step begins: extrapolated from the last two steps, that "
+         "of the last step, or none; displacement and velocity follow from it as in time integration (a kept "
+         "displacement would ask for an enormous acceleration)"},
     {0}};
 
 static const struct schema_child output_children[] = {

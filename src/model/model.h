@@ -188,12 +188,20 @@ struct model_open {
     struct location where;
 };
 
+/** The acceleration a solid is predicted to have at the end of a step, from those of the start (a_n) and one
+ * step before (a_{n-1}): 2 a_n - a_{n-1}, a_n, or 0; displacement and velocity follow by Newmark. */
+enum predictor { PREDICTOR_LINEAR, PREDICTOR_CONSTANT, PREDICTOR_ZERO };
+
 struct model_coupling {
-    char *scheme; /**< "fixed-point" */
-    double tolerance;
+    char *scheme;           /**< "fixed-point" */
+    double tolerance;       /**< of eq. 46, m/s; 0: not asked for */
+    double force_tolerance; /**< of the change of the loads, N (2-D: N/m); 0: not asked for */
     int iterations;
-    char *acceleration; /**< "added-mass", "aitken", "constant", "none" */
-    double relaxation;  /**< first (aitken) or only (constant) relaxation factor */
+    char *acceleration; /**< "added-mass", "iqn-ils", "aitken", "constant", "none" */
+    double relaxation;  /**< first (aitken, iqn-ils) or only (constant) relaxation factor */
+    int reused_steps;   /**< iqn-ils: steps whose columns are kept */
+    double filter;      /**< iqn-ils: least part of a column that is new */
+    enum predictor predictor;
     struct location where;
 };
 

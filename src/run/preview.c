@@ -170,6 +170,20 @@ static void print_costs(const struct model *model, const struct census *census, 
         log_message(LOG_WARNING, "the output will not fit on the disk of %s", output);
 }
 
+static void print_coupling(const struct model *model, FILE *stream)
+{
+    const struct model_coupling *coupling = &model->coupling;
+    if (strcmp(coupling->scheme, "none") == 0)
+        return;
+    fprintf(stream, "coupling   %s, acceleration %s", coupling->scheme, coupling->acceleration);
+    if (coupling->tolerance > 0.0)
+        fprintf(stream, ", tolerance %.3g m/s", coupling->tolerance);
+    if (coupling->force_tolerance > 0.0)
+        fprintf(stream, ", force tolerance %.3g %s", coupling->force_tolerance,
+                model->dim == 2 ? "N/m" : "N");
+    fprintf(stream, "\n");
+}
+
 int preview_print(const struct model *model, const char *output, FILE *stream)
 {
     struct census census = {0};
@@ -178,9 +192,7 @@ int preview_print(const struct model *model, const char *output, FILE *stream)
         CALL(print_fluid(model, &census, stream));
     print_solids(model, &census, stream);
     print_surfaces(model, stream);
-    if (strcmp(model->coupling.scheme, "none") != 0)
-        fprintf(stream, "coupling   %s, acceleration %s, tolerance %.3g m/s\n", model->coupling.scheme,
-                model->coupling.acceleration, model->coupling.tolerance);
+    print_coupling(model, stream);
     fprintf(stream, "time       %.6g s in %.0f steps of %.4g s\n", model->time.end,
             ceil(model->time.end / model->time.step * (1.0 - 1e-12)), model->time.step);
     if (model->fluid.present) {

@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 
+#include <math.h>
+
 int attachment_init(struct attachment *attachment, struct surface *surface, int mesh, bool *claimed)
 {
     *attachment = (struct attachment){.surface = surface};
@@ -52,20 +54,22 @@ void attachment_move(const struct attachment *attachment, const double (*X)[3], 
     }
 }
 
-void attachment_follow(const struct attachment *attachment, double (*d)[3], double (*v)[3], double (*a)[3])
+bool attachment_follow(const struct attachment *attachment, double (*d)[3])
 {
     const struct surface_motion *relaxed = &attachment->surface->level[1],
                                 *trial = &attachment->surface->trial;
+    bool moved = false;
     for (size_t k = 0; k < attachment->n; k++) {
         if (!attachment->leads[k])
             continue;
         const int32_t p = attachment->points[k], node = attachment->nodes[k];
         for (int i = 0; i < 3; i++) {
-            d[node][i] += relaxed->x[p][i] - trial->x[p][i];
-            v[node][i] += relaxed->v[p][i] - trial->v[p][i];
-            a[node][i] += relaxed->a[p][i] - trial->a[p][i];
+            const double ahead = relaxed->x[p][i] - trial->x[p][i];
+            d[node][i] += ahead;
+            moved |= fabs(ahead) > 0;
         }
     }
+    return moved;
 }
 
 void attachment_add_load(const struct attachment *attachment, double (*f)[3])

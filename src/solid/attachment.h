@@ -23,9 +23,9 @@ void attachment_reset(struct attachment *attachment);
 void attachment_move(const struct attachment *attachment, const double (*X)[3], const double (*d)[3],
                      const double (*v)[3], const double (*a)[3], struct surface_motion *motion);
 
-/** Add to the nodes what the points' level 1 is ahead of their trial: the scheme has relaxed the answer.
- * Exactly 0 otherwise. */
-void attachment_follow(const struct attachment *attachment, double (*d)[3], double (*v)[3], double (*a)[3]);
+/** Add to the displacements of the nodes what the points' level 1 is ahead of their trial: the scheme has
+ * relaxed the answer. Exactly 0 otherwise. Returns whether any node moved. */
+bool attachment_follow(const struct attachment *attachment, double (*d)[3]);
 
 /** f[node] += load of the points. */
 void attachment_add_load(const struct attachment *attachment, double (*f)[3]);

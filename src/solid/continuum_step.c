@@ -194,12 +194,28 @@ static void newmark(struct continuum *continuum)
     continuum->forces_current = false;
 }
 
+/** Trial := displacement @p d, with the velocities and accelerations that Newmark asks for. */
+static void trial_from_displacement(struct continuum *continuum, const double (*d)[3])
+{
+    const double dt = continuum->solid->dt, beta = continuum->method.beta;
+    const struct continuum_nodes *state = &continuum->state;
+    for (size_t a = 0; a < continuum->mesh->n_nodes; a++)
+        for (int i = 0; i < 3; i++)
+            continuum->trial.a[a][i] =
+                ((d[a][i] - state->d[a][i]) / dt - state->v[a][i] - (0.5 - beta) * dt * state->a[a][i]) /
+                (beta * dt);
+    newmark(continuum);
+}
+
 int continuum_begin_step(struct solid *solid)
 {
     struct continuum *continuum = solid->data;
+    double weights[2];
     given_loads(continuum, solid->t + solid->dt, continuum->f_given);
+    solid_predictor(solid, weights);
     for (size_t k = 0; k < 3 * continuum->mesh->n_nodes; k++)
-        flat(continuum->trial.a)[k] = 2 * flat(continuum->state.a)[k] - flat(continuum->a_before)[k];
+        flat(continuum->trial.a)[k] =
+            weights[0] * flat(continuum->state.a)[k] + weights[1] * flat(continuum->a_before)[k];
     newmark(continuum);
     continuum->corrections = 0;
     return 0;
@@ -302,16 +318,6 @@ static int newton(struct continuum *continuum, bool *inverted)
         continuum->definition->newton_tolerance);
 }
 
-/** Trial := displacement of the state, with the accelerations Newmark asks for. */
-static void restart_from_state(struct continuum *continuum)
-{
-    const double dt = continuum->solid->dt, beta = continuum->method.beta;
-    const struct continuum_nodes *state = &continuum->state;
-    for (size_t k = 0; k < 3 * continuum->mesh->n_nodes; k++)
-        flat(continuum->trial.a)[k] = -(flat(state->v)[k] / dt + (0.5 - beta) * flat(state->a)[k]) / beta;
-    newmark(continuum);
-}
-
 int continuum_solve(struct solid *solid)
 {
     struct continuum *continuum = solid->data;
@@ -320,7 +326,7 @@ int continuum_solve(struct solid *solid)
     continuum->factored = false; /* the solver's factor is no longer the kept one */
     CALL(newton(continuum, &inverted));
     if (inverted) { /* with a long step the prediction may lead too far */
-        restart_from_state(continuum);
+        trial_from_displacement(continuum, (const double(*)[3])continuum->state.d);
         CALL(newton(continuum, &inverted));
         if (inverted)
             return continuum_report_inverted(continuum, solid->t + solid->dt);
@@ -379,9 +385,14 @@ int continuum_correct(struct solid *solid, bool added_mass)
 {
     struct continuum *continuum = solid->data;
     struct continuum_nodes *trial = &continuum->trial;
+    bool moved = false;
     for (size_t k = 0; k < solid->n_attachments; k++)
-        attachment_follow(&solid->attachments[k], trial->d, trial->v, trial->a);
-    prescribe(continuum, solid->t + solid->dt, trial);
+        moved |= attachment_follow(&solid->attachments[k], trial->d);
+    /* rounding must not part displacement and acceleration: no correction would bring them together again */
+    if (moved)
+        trial_from_displacement(continuum, (const double(*)[3])trial->d);
+    else
+        prescribe(continuum, solid->t + solid->dt, trial);
     external_forces(continuum, (const double(*)[3])continuum->f_given, trial->f_external);
     if (continuum_internal_forces(continuum, (const double(*)[3])trial->d, trial->f_internal))
         return continuum_report_inverted(continuum, solid->t + solid->dt);

@@ -5,6 +5,8 @@
 #include "base/memory.h"
 #include "solid/solid_list.h"
 
+#include <string.h>
+
 static const struct solid_type *find_type(const struct model_mesh *mesh)
 {
     for (int k = 0; k < SOLID_LIST_SIZE; k++)
@@ -104,6 +106,13 @@ int solid_begin_step(struct solid *solid, double t, double dt)
     solid->t = t;
     solid->dt = dt;
     return solid->type->begin_step(solid);
+}
+
+void solid_predictor(const struct solid *solid, double weights[2])
+{
+    static const double all[][2] = {
+        [PREDICTOR_LINEAR] = {2.0, -1.0}, [PREDICTOR_CONSTANT] = {1.0, 0.0}, [PREDICTOR_ZERO] = {0.0, 0.0}};
+    memcpy(weights, all[solid->model->coupling.predictor], sizeof all[0]);
 }
 
 int solid_predict(struct solid *solid)

@@ -52,7 +52,8 @@ double solid_stable_step(const struct solid *solid);
 /** Start a step from @p t to @p t + @p dt. */
 int solid_begin_step(struct solid *solid, double t, double dt);
 
-/** Predict the end of the step into level 1 of the attached surfaces (a = 2 a_n - a_{n-1} and Newmark). */
+/** Predict the end of the step into level 1 of the attached surfaces: the acceleration as the deck's
+ * predictor says (by default a = 2 a_n - a_{n-1}), the rest by Newmark. */
 int solid_predict(struct solid *solid);
 
 /** Solve the step with the loads now on the attached surfaces; answer in their trial. */

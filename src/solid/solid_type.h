@@ -46,4 +46,8 @@ struct solid {
     void *data;    /**< of the discretisation */
 };
 
+/** Weights of the accelerations at the start of the step and one step before in the one that the deck wants
+ * predicted for its end. */
+void solid_predictor(const struct solid *solid, double weights[2]);
+
 #endif

@@ -4,6 +4,11 @@ tests_coupling_test_relaxation_SOURCES = tests/coupling/test_relaxation.c
 tests_coupling_test_relaxation_LDADD = $(test_libs)
 TESTS += tests/coupling/test_relaxation
 
+check_PROGRAMS += tests/coupling/test_quasi_newton
+tests_coupling_test_quasi_newton_SOURCES = tests/coupling/test_quasi_newton.c
+tests_coupling_test_quasi_newton_LDADD = $(test_libs)
+TESTS += tests/coupling/test_quasi_newton
+
 check_PROGRAMS += tests/coupling/test_fixed_point
 tests_coupling_test_fixed_point_SOURCES = tests/coupling/test_fixed_point.c tests/run/beam_deck.h $(test_assembly)
 tests_coupling_test_fixed_point_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests

@@ -38,12 +38,13 @@ struct outcome {
     double tip[2], velocity[2], force[2];
 };
 
-static struct outcome run(const char *acceleration, const char *ratio)
+/** With these attributes of <coupling>: when to stop, and how to get there. */
+static struct outcome run_to(const char *criterion, const char *acceleration, const char *ratio)
 {
     struct assembly a;
     struct outcome outcome = {0};
-    char coupling[128];
-    snprintf(coupling, sizeof coupling, "tolerance='1e-10' iterations='60' %s", acceleration);
+    char coupling[256];
+    snprintf(coupling, sizeof coupling, "%s iterations='60' %s", criterion, acceleration);
     beam_create(&a, coupling, ratio);
     outcome.status = assembly_steps(&a, STEPS);
     outcome.mean = (double)a.coupling->total_iterations / (double)(a.coupling->steps ? a.coupling->steps : 1);
@@ -57,6 +58,11 @@ static struct outcome run(const char *acceleration, const char *ratio)
     }
     assembly_reset(&a);
     return outcome;
+}
+
+static struct outcome run(const char *acceleration, const char *ratio)
+{
+    return run_to("tolerance='1e-10'", acceleration, ratio);
 }
 
 static void assert_same(const struct outcome *a, const struct outcome *b)
@@ -77,14 +83,18 @@ static void test_accelerations_agree(void **state)
     for (int r = 0; r < 2; ++r) {
         const struct outcome added = run("acceleration='added-mass'", ratios[r]);
         const struct outcome aitken = run("acceleration='aitken' relaxation='0.5'", ratios[r]);
+        const struct outcome quasi_newton = run("acceleration='iqn-ils' relaxation='0.5'", ratios[r]);
         const struct outcome constant = run("acceleration='constant' relaxation='0.6'", ratios[r]);
         const struct outcome none = run("acceleration='none'", ratios[r]);
-        print_message("%s: iterations added-mass %.2f, aitken %.2f, constant %.2f, none %.2f; tip %g %g\n",
-                      ratios[r], added.mean, aitken.mean, constant.mean, none.status ? INFINITY : none.mean,
-                      added.tip[0], added.velocity[0]);
+        print_message("%s: iterations added-mass %.2f, iqn-ils %.2f, aitken %.2f, constant %.2f, none %.2f; "
+                      "tip %g %g\n",
+                      ratios[r], added.mean, quasi_newton.mean, aitken.mean, constant.mean,
+                      none.status ? INFINITY : none.mean, added.tip[0], added.velocity[0]);
         assert_true(fabs(added.tip[0]) > 1e-3);
         assert_same(&aitken, &added);
         assert_same(&constant, &added);
+        assert_same(&quasi_newton, &added);
+        assert_true(quasi_newton.mean < constant.mean);
         assert_true(added.mean < aitken.mean && added.mean < constant.mean);
         if (r == 1) { // as heavy as the fluid at this spacing: plain iteration diverges
             assert_int_equal(none.status, STATUS_NUMERICAL);
@@ -93,6 +103,60 @@ static void test_accelerations_agree(void **state)
         assert_same(&none, &added);
         assert_true(added.mean < none.mean);
     }
+}
+
+/** Learning from more steps saves iterations, and where the iteration ends does not depend on that, however
+ * small the changes that it learned from. */
+static void test_reused_steps(void **state)
+{
+    (void)state;
+    static const char *const more[] = {"reused-steps='5'", "reused-steps='0'", "filter='1e-6'"};
+    const struct outcome added = run_to("tolerance='1e-12'", "acceleration='added-mass'", "ratio=10");
+    struct outcome outcomes[3];
+    for (int k = 0; k < 3; ++k) {
+        char attributes[128];
+        snprintf(attributes, sizeof attributes, "acceleration='iqn-ils' relaxation='0.5' %s", more[k]);
+        outcomes[k] = run_to("tolerance='1e-11'", attributes, "ratio=10");
+        assert_same(&outcomes[k], &added);
+    }
+    print_message("iterations with 5 steps reused %.2f, with none %.2f, hardly filtered %.2f\n",
+                  outcomes[0].mean, outcomes[1].mean, outcomes[2].mean);
+    assert_true(outcomes[0].mean < outcomes[1].mean);
+}
+
+/** The forces alone, the displacement alone, or both. */
+static void test_criteria(void **state)
+{
+    (void)state;
+    const char *const added_mass = "acceleration='added-mass'";
+    const struct outcome fine = run(added_mass, "ratio=10");
+    const struct outcome force = run_to("force-tolerance='1e-8'", added_mass, "ratio=10");
+    const struct outcome coarse = run_to("tolerance='1e-3'", added_mass, "ratio=10");
+    const struct outcome coarse_force = run_to("force-tolerance='1'", added_mass, "ratio=10");
+    const struct outcome both = run_to("tolerance='1e-3' force-tolerance='1e-8'", added_mass, "ratio=10");
+    print_message("iterations: displacement %.2f, force %.2f; coarse %.2f, %.2f; both %.2f\n", fine.mean,
+                  force.mean, coarse.mean, coarse_force.mean, both.mean);
+    assert_same(&force, &fine);
+    assert_true(coarse.mean < 2.0 && coarse.mean >= 1.0);
+    assert_true(coarse_force.mean == 2.0); // there is no change of the first forces
+    assert_true(both.mean == force.mean);  // the stricter one decides
+    assert_memory_equal(both.tip, force.tip, sizeof both.tip);
+}
+
+/** Where a step ends does not depend on the prediction, how soon does. */
+static void test_predictors(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"linear-acceleration", "constant-acceleration", "zero-acceleration"};
+    struct outcome outcomes[3];
+    for (int k = 0; k < 3; ++k) {
+        char attributes[128];
+        snprintf(attributes, sizeof attributes, "acceleration='added-mass' predictor='%s'", names[k]);
+        outcomes[k] = run(attributes, "ratio=10");
+        print_message("%s: %.2f iterations\n", names[k], outcomes[k].mean);
+        assert_same(&outcomes[k], &outcomes[0]);
+    }
+    assert_true(outcomes[0].mean < outcomes[2].mean && outcomes[1].mean < outcomes[2].mean);
 }
 
 static void test_limit(void **state)
@@ -108,14 +172,21 @@ static void test_limit(void **state)
     assert_non_null(strstr(said, "after 2 iterations, tolerance 1e-12"));
     assert_non_null(strstr(said, "added-mass"));
     assembly_reset(&a);
+    beam_create(&a, "iterations='3' force-tolerance='1e-14'", "ratio=10");
+    assembly_listen();
+    assert_int_equal(assembly_steps(&a, 1), STATUS_NUMERICAL);
+    assembly_heard(said, sizeof said);
+    assert_non_null(strstr(said, "after 3 iterations, change of the force "));
+    assert_non_null(strstr(said, "force-tolerance 1e-14 N/m"));
+    assembly_reset(&a);
 }
 
 /** Particles by id, nodes and loads of a run. */
-static double *bytes(int threads, size_t *size)
+static double *bytes(const char *coupling, int threads, size_t *size)
 {
     struct assembly a;
     parallel_setup(threads);
-    beam_create(&a, "acceleration='added-mass'", "ratio=10");
+    beam_create(&a, coupling, "ratio=10");
     assert_int_equal(assembly_steps(&a, STEPS), 0);
     const struct particles *block = fluid_particles(a.fluid);
     const struct surface *wet = assembly_surface(&a, "wet");
@@ -138,15 +209,18 @@ static double *bytes(int threads, size_t *size)
 static void test_threads(void **state)
 {
     (void)state;
-    size_t size, other_size;
-    double *one = bytes(1, &size);
-    for (int threads = 2; threads <= 3; ++threads) {
-        double *other = bytes(threads, &other_size);
-        assert_int_equal(size, other_size);
-        assert_memory_equal(one, other, size * sizeof *one);
-        memory_free(other);
+    static const char *const couplings[] = {"acceleration='added-mass'", "acceleration='iqn-ils'"};
+    for (int c = 0; c < 2; ++c) {
+        size_t size, other_size;
+        double *one = bytes(couplings[c], 1, &size);
+        for (int threads = 2; threads <= 3; ++threads) {
+            double *other = bytes(couplings[c], threads, &other_size);
+            assert_int_equal(size, other_size);
+            assert_memory_equal(one, other, size * sizeof *one);
+            memory_free(other);
+        }
+        memory_free(one);
     }
-    memory_free(one);
     parallel_setup(1);
 }
 
@@ -188,6 +262,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_accelerations_agree),
+        cmocka_unit_test(test_reused_steps),
+        cmocka_unit_test(test_criteria),
+        cmocka_unit_test(test_predictors),
         cmocka_unit_test(test_limit),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_balance),
