@@ -20,6 +20,15 @@ const struct coupling_type *coupling_choose(const struct model *model)
     return NULL;
 }
 
+int coupling_check_parts(const struct model *model)
+{
+    CHECK(model->fluid.present && model->n_meshes, STATUS_DECK,
+          "%s:%d:%d: error: <coupling>: scheme \"%s\" couples a fluid with meshes, and the deck has no %s",
+          model->path, model->coupling.where.line, model->coupling.where.column, model->coupling.scheme,
+          model->fluid.present ? "<mesh>" : "<fluid>");
+    return 0;
+}
+
 static int quasi_newton_begin(struct coupling *coupling, const struct model_coupling *definition)
 {
     CHECK_MEMORY(coupling->answer = memory_create(3 * coupling->n_dof, sizeof *coupling->answer));
@@ -70,6 +79,8 @@ int coupling_create(struct coupling **coupling, const struct model *model, const
             c->n_points += parts->surfaces[s]->n_points;
     c->n_dof = (size_t)model->dim * c->n_points;
     int status = c->type ? acceleration_create(c, c->definition) : STATUS_DECK;
+    if (!status && c->type->create)
+        status = c->type->create(c);
     if (status) {
         coupling_destroy(c);
         return status;
@@ -82,6 +93,8 @@ void coupling_destroy(struct coupling *coupling)
 {
     if (!coupling)
         return;
+    if (coupling->type && coupling->type->destroy)
+        coupling->type->destroy(coupling);
     relaxation_destroy(coupling->relaxation);
     quasi_newton_destroy(coupling->quasi_newton);
     memory_free(coupling->difference);
@@ -112,6 +125,8 @@ int coupling_state(struct coupling *coupling, struct field_list *list)
     CALL(field_list_add(list, &coupling->state));
     if (coupling->quasi_newton)
         CALL(field_list_add(list, &coupling->quasi_newton->state));
+    if (coupling->type->state)
+        CALL(coupling->type->state(coupling, list));
     for (size_t k = 0; k < parts->n_surfaces; ++k)
         CALL(field_list_add(list, &parts->surfaces[k]->fields));
     for (size_t k = 0; k < parts->n_solids; ++k)
@@ -122,6 +137,8 @@ int coupling_state(struct coupling *coupling, struct field_list *list)
 int coupling_resume(struct coupling *coupling)
 {
     const struct coupling_parts *parts = &coupling->parts;
+    if (coupling->type->resume)
+        return coupling->type->resume(coupling);
     for (size_t k = 0; k < parts->n_surfaces; ++k)
         surface_resume(parts->surfaces[k], coupling->t_end);
     for (size_t k = 0; k < parts->n_solids; ++k)
@@ -129,17 +146,21 @@ int coupling_resume(struct coupling *coupling)
     return parts->fluid ? fluid_resume(parts->fluid, coupling->t_end) : 0;
 }
 
+void coupling_add_impulse(struct coupling *coupling, double dt)
+{
+    for (size_t s = 0; s < coupling->parts.n_surfaces; ++s) {
+        struct surface *surface = coupling->parts.surfaces[s];
+        for (size_t p = 0; p < surface->n_points; ++p)
+            for (int k = 0; k < 3; ++k)
+                coupling->wall_impulse[k] += 0.5 * dt * (surface->load_previous[p][k] + surface->load[p][k]);
+        surface_add_impulse(surface, dt, SURFACE_LOAD_END);
+    }
+}
+
 int coupling_step(struct coupling *coupling, double t, double dt)
 {
     CALL(coupling->type->step(coupling, t, dt));
     coupling->t_end = t + dt;
-    for (size_t s = 0; s < coupling->parts.n_surfaces; ++s) {
-        struct surface *surface = coupling->parts.surfaces[s];
-        surface_add_impulse(surface, dt, SURFACE_LOAD_END);
-        for (size_t p = 0; p < surface->n_points; ++p)
-            for (int k = 0; k < 3; ++k)
-                coupling->wall_impulse[k] += surface->impulse[p][k];
-    }
     coupling->total_iterations += coupling->iterations;
     ++coupling->steps;
     return 0;

@@ -27,6 +27,12 @@ struct coupling_type {
     /** Why the model cannot be run with this scheme (reported, STATUS_DECK), or 0. */
     int (*check)(const struct model *model);
     int (*step)(struct coupling *coupling, double t, double dt);
+    /** What a scheme keeps between steps: made, undone, its fields; NULL: nothing. */
+    int (*create)(struct coupling *coupling);
+    void (*destroy)(struct coupling *coupling);
+    int (*state)(struct coupling *coupling, struct field_list *list);
+    /** Go on from state fields that have been filled; NULL: all parts are at the end of a step. */
+    int (*resume)(struct coupling *coupling);
 };
 
 struct coupling {
@@ -40,11 +46,13 @@ struct coupling {
     double *difference;                /**< trial minus level 1, n_dof entries */
     double *answer, *iterate;          /**< x, v, a of trial and level 1 for quasi_newton, 3 n_dof each */
     double (*load_before)[3];          /**< loads of the iteration before, n_points rows */
+    struct sub_cycle *sub_cycle;       /**< of the scheme "sub-cycled" */
     const char *unit_of_force;
     int iterations;  /**< of the last step: calls of fluid_interface */
     double residual; /**< of the last step: eq. 46, m/s */
     int64_t total_iterations, steps;
     double t_end;           /**< end of the last step, s */
+    double solids_behind;   /**< how long before that the state of the solids is, s */
     double wall_impulse[3]; /**< of the fluid on all surfaces since the start, N s (2-D: N s/m) */
     struct field_group state;
     struct field state_fields[4];
@@ -66,6 +74,12 @@ int coupling_state(struct coupling *coupling, struct field_list *list);
 
 /** Go on from state fields that have been filled: everything else is derived, nothing is evaluated. */
 int coupling_resume(struct coupling *coupling);
+
+/** For schemes that couple: STATUS_DECK (reported) when there is no fluid or no mesh, else 0. */
+int coupling_check_parts(const struct model *model);
+
+/** For schemes, once a step: the loads of its end into the impulses of all surfaces. */
+void coupling_add_impulse(struct coupling *coupling, double dt);
 
 /** Advance everything from @p t by @p dt. */
 int coupling_step(struct coupling *coupling, double t, double dt);

@@ -12,12 +12,7 @@
 
 static int fixed_point_check(const struct model *model)
 {
-    CHECK(model->fluid.present && model->n_meshes, STATUS_DECK,
-          "%s:%d:%d: error: <coupling>: scheme \"fixed-point\" couples a fluid with meshes, and the deck has "
-          "no %s",
-          model->path, model->coupling.where.line, model->coupling.where.column,
-          model->fluid.present ? "<mesh>" : "<fluid>");
-    return 0;
+    return coupling_check_parts(model);
 }
 
 /** Whether what the deck asks for holds; @p change is that of the loads. */
@@ -96,6 +91,7 @@ static int fixed_point_step(struct coupling *coupling, double t, double dt)
     for (size_t k = 0; k < parts->n_solids; ++k)
         CALL(solid_accept(parts->solids[k]));
     timer_lap(parts->timer, TIMER_SOLID, &since);
+    coupling_add_impulse(coupling, dt);
     return 0;
 }
 

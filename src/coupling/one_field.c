@@ -26,6 +26,7 @@ static int one_field_step(struct coupling *coupling, double t, double dt)
         CALL(solid_accept(parts->solids[k]));
     }
     timer_lap(parts->timer, TIMER_SOLID, &since);
+    coupling_add_impulse(coupling, dt);
     coupling->iterations = 1;
     return 0;
 }

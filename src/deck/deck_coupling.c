@@ -20,6 +20,11 @@ static bool fluid_meets_solid(const struct model *model)
     return false;
 }
 
+static bool is_sub_cycled(const struct model_coupling *coupling)
+{
+    return coupling->scheme && strcmp(coupling->scheme, "sub-cycled") == 0;
+}
+
 /** What belongs to one acceleration only: filled in for it, refused with others. */
 static void read_quasi_newton(struct deck *deck, struct deck_node *node, struct model_coupling *coupling)
 {
@@ -52,6 +57,38 @@ static void read_criteria(struct deck *deck, struct deck_node *node, struct mode
     coupling->iterations = deck_integer(deck, node, "iterations");
 }
 
+static void read_predictor(struct deck *deck, struct deck_node *node, struct model_coupling *coupling)
+{
+    if (!deck_has(node, "predictor"))
+        deck_fill(deck, node, "predictor", "%s",
+                  is_sub_cycled(coupling) ? "constant-acceleration" : "linear-acceleration");
+    const int predictor = deck_choice(deck, node, "predictor");
+    coupling->predictor = predictor < 0 ? PREDICTOR_LINEAR : (enum predictor)predictor;
+}
+
+/** What belongs to steps of the solid that span several of the fluid's. */
+static void read_sub_cycling(struct deck *deck, struct deck_node *node, struct model_coupling *coupling)
+{
+    if (!is_sub_cycled(coupling)) {
+        if (deck_has(node, "solid-every"))
+            deck_error(deck, node, "solid-every", "solid-every goes with scheme=\"sub-cycled\" only");
+        return;
+    }
+    if (!deck_has(node, "solid-every"))
+        deck_fill(deck, node, "solid-every", "2");
+    coupling->solid_every = deck_integer(deck, node, "solid-every");
+    if (deck_has(node, "force-tolerance"))
+        deck_error(deck, node, "force-tolerance",
+                   "scheme=\"sub-cycled\" has no iteration whose forces could settle; leave out "
+                   "force-tolerance");
+    if (coupling->acceleration && strcmp(coupling->acceleration, "added-mass") != 0 &&
+        strcmp(coupling->acceleration, "none") != 0)
+        deck_error(deck, node, "acceleration",
+                   "scheme=\"sub-cycled\" has no iteration to accelerate by \"%s\"; use \"added-mass\", "
+                   "which makes its only solve stable, or \"none\"",
+                   coupling->acceleration);
+}
+
 int deck_read_coupling(struct deck *deck)
 {
     struct deck_node *node = deck_child(deck->root, SCHEMA_COUPLING);
@@ -67,14 +104,15 @@ int deck_read_coupling(struct deck *deck)
     coupling->acceleration = deck_word(deck, node, "acceleration");
     coupling->relaxation = deck_real(deck, node, "relaxation");
     read_quasi_newton(deck, node, coupling);
-    const int predictor = deck_choice(deck, node, "predictor");
-    coupling->predictor = predictor < 0 ? PREDICTOR_LINEAR : (enum predictor)predictor;
+    read_sub_cycling(deck, node, coupling);
+    read_predictor(deck, node, coupling);
     const bool none = coupling->scheme && strcmp(coupling->scheme, "none") == 0;
     if (deck->n_problems > 0) // surfaces or walls may be missing
         return deck->status;
     if (none && meet)
         deck_error(deck, node, "scheme",
-                   "a wall has the skin of a mesh, so that fluid and solid need scheme=\"fixed-point\"");
+                   "a wall has the skin of a mesh, so that fluid and solid need scheme=\"fixed-point\" or "
+                   "\"sub-cycled\"");
     else if (!none && !meet && coupling->scheme)
         deck_error(deck, node, "scheme",
                    "no wall has the skin of a mesh: nothing is coupled, use scheme=\"none\" or leave "

@@ -374,9 +374,13 @@ static const struct schema_attribute outflow_attributes[] = {
     {0}};
 
 static const struct schema_attribute coupling_attributes[] = {
-    {"scheme", SCHEMA_CHOICE, .choices = "fixed-point|none",
-     .doc = "how fluid and solid meet; default: fixed-point where a wall has the skin of a mesh, otherwise "
-            "none"},
+    {"scheme", SCHEMA_CHOICE, .choices = "fixed-point|sub-cycled|none",
+     .doc = "how fluid and solid meet: fixed-point iterates in each step until they agree; in sub-cycled the "
+            "solid takes steps of several fluid steps, meets the mean load of the fluid, and nothing is "
+            "iterated; default: fixed-point where a wall has the skin of a mesh, otherwise none"},
+    {"solid-every", SCHEMA_INTEGER, .range = RANGE_POSITIVE,
+     .doc = "scheme=\"sub-cycled\": fluid steps in one step of the solid; output inside such a step shows "
+            "surfaces where the fluid meets them and the solid as it was at its start; default: 2"},
     {"tolerance", SCHEMA_REAL, .range = RANGE_POSITIVE, .unit = "m/s",
      .doc = "change of the interface displacement in one iteration, by step length and root of the number of "
             "degrees of freedom, at which the iteration stops; default: 1e-8, or not looked at where only "
@@ -402,11 +406,11 @@ static const struct schema_attribute coupling_attributes[] = {
          "is independent of what newer ones changed (the smaller, the more is learned, and the less robust); "
          "less than 1; default: 1e-2"},
     {"predictor", SCHEMA_CHOICE, .choices = "linear-acceleration|constant-acceleration|zero-acceleration",
-     .fallback = "linear-acceleration",
      .doc =
          "acceleration of the solid with which a step begins: extrapolated from the last two steps, that "
          "of the last step, or none; displacement and velocity follow from it as in time integration (a kept "
-         "displacement would ask for an enormous acceleration)"},
+         "displacement would ask for an enormous acceleration); default: linear-acceleration, in sub-cycled "
+         "constant-acceleration"},
     {0}};
 
 static const struct schema_child output_children[] = {

@@ -304,20 +304,21 @@ static int lists_update(struct fluid *fluid, double moved, bool stale)
     for (size_t k = 0; k < fluid->n_boundaries; ++k) {
         struct boundary *b = fluid->boundaries[k];
         double wall = 0.0;
-        for (size_t s = 0; s < b->n_surfaces && b->moving; ++s) {
-            const struct surface *surface = b->surfaces[s];
-            for (size_t p = 0; p < surface->n_points; ++p) {
-                double d2 = 0.0;
-                for (int d = 0; d < 3; ++d)
-                    d2 += pow(surface->level[1].x[p][d] - surface->level[0].x[p][d], 2.0);
-                wall = fmax(wall, d2);
-            }
-        }
-        b->drift += sqrt(wall);
+        for (size_t s = 0; s < b->n_surfaces && b->moving; ++s)
+            wall = fmax(wall, surface_travel(b->surfaces[s], fluid->view.t, fluid->view.dt));
+        b->drift += wall;
         /* a tenth of the skin is left for what the iterations add to the prediction */
         stale |= fluid->drift + b->drift > 0.9 * fluid->skin;
     }
     return stale ? fluid_rebuild(fluid) : 0;
+}
+
+void fluid_surface_moved(struct fluid *fluid, const struct surface *surface, double distance)
+{
+    for (size_t k = 0; k < fluid->n_boundaries; ++k)
+        for (size_t s = 0; s < fluid->boundaries[k]->n_surfaces; ++s)
+            if (fluid->boundaries[k]->surfaces[s] == surface)
+                fluid->boundaries[k]->drift += distance;
 }
 
 int fluid_start(struct fluid *fluid, double t)

@@ -55,6 +55,10 @@ int fluid_end_step(struct fluid *fluid);
 /** Make the added-mass operators of the coupled surfaces (once a step, after the first fluid_interface). */
 int fluid_added_mass(struct fluid *fluid);
 
+/** After the end of a step: points of @p surface were put elsewhere, at most @p distance away from where the
+ * fluid met them (more than an iteration's tolerance), m. */
+void fluid_surface_moved(struct fluid *fluid, const struct surface *surface, double distance);
+
 /** Read access for output and monitors. */
 const struct particles *fluid_particles(const struct fluid *fluid);
 const struct fluid_view *fluid_view(const struct fluid *fluid);

@@ -193,7 +193,7 @@ struct model_open {
 enum predictor { PREDICTOR_LINEAR, PREDICTOR_CONSTANT, PREDICTOR_ZERO };
 
 struct model_coupling {
-    char *scheme;           /**< "fixed-point" */
+    char *scheme;           /**< "fixed-point", "sub-cycled" */
     double tolerance;       /**< of eq. 46, m/s; 0: not asked for */
     double force_tolerance; /**< of the change of the loads, N (2-D: N/m); 0: not asked for */
     int iterations;
@@ -202,6 +202,7 @@ struct model_coupling {
     int reused_steps;   /**< iqn-ils: steps whose columns are kept */
     double filter;      /**< iqn-ils: least part of a column that is new */
     enum predictor predictor;
+    int solid_every; /**< sub-cycled: fluid steps in a step of the solids; otherwise 0 */
     struct location where;
 };
 

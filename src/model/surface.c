@@ -4,7 +4,11 @@
 #include "base/error.h"
 #include "base/memory.h"
 
+#include <math.h>
 #include <string.h>
+
+/** Places in the field list that surface_show changes. */
+enum { FIELD_VELOCITY = 1, FIELD_ACCELERATION = 2 };
 
 static int surface_motion_create(struct surface_motion *motion, size_t n)
 {
@@ -108,21 +112,23 @@ static int fill_displacement(const void *owner, const struct field *field, void 
     double(*d)[3] = destination;
     for (size_t i = 0; i < s->n_points; ++i)
         for (int k = 0; k < 3; ++k)
-            d[i][k] = s->level[1].x[i][k] - s->X[i][k];
+            d[i][k] = s->shown->x[i][k] - s->X[i][k];
     return 0;
 }
 
 static int register_fields(struct surface *s)
 {
     /* motion is prescribed, or follows from the solids' state; lists are made for a place of the past */
-    const unsigned listed = s->moving ? FIELD_STATE : 0;
+    const unsigned listed = s->moving ? FIELD_STATE : 0, impulse = s->sub_cycled ? FIELD_STATE : 0;
     const struct field list[] = {
         {"Displacement", "m", FIELD_DOUBLE, 3, FIELD_OUTPUT, {NULL}, fill_displacement},
-        {"Velocity", "m/s", FIELD_DOUBLE, 3, FIELD_OUTPUT, {s->level[1].v}, NULL},
-        {"Acceleration", "m/s^2", FIELD_DOUBLE, 3, FIELD_OUTPUT, {s->level[1].a}, NULL},
+        [FIELD_VELOCITY] = {"Velocity", "m/s", FIELD_DOUBLE, 3, FIELD_OUTPUT, {s->level[1].v}, NULL},
+        [FIELD_ACCELERATION] =
+            {"Acceleration", "m/s^2", FIELD_DOUBLE, 3, FIELD_OUTPUT, {s->level[1].a}, NULL},
         {"Load", "N", FIELD_DOUBLE, 3, FIELD_OUTPUT, {s->load}, NULL},
         {"LoadPrevious", "N", FIELD_DOUBLE, 3, FIELD_STATE, {s->load_previous}, NULL},
         {"ListedPlace", "m", FIELD_DOUBLE, 3, listed, {s->listed}, NULL},
+        {"Impulse", "N s", FIELD_DOUBLE, 3, impulse, {s->impulse}, NULL},
     };
     memcpy(s->field_list, list, sizeof list);
     char *name = memory_print("surface-%s", s->definition->name);
@@ -146,6 +152,8 @@ int surface_create(struct surface **surface, const struct model *model, int inde
     if (!status) {
         fill_definition(s);
         s->moving = s->coupled || motion_moves(&d->motion);
+        s->sub_cycled = s->coupled && model->coupling.solid_every > 0;
+        s->shown = &s->level[1];
         status = register_fields(s);
     }
     if (status) {
@@ -194,10 +202,27 @@ void surface_open(struct surface *surface, double t1)
                 surface->now.a[i][k] = (surface->level[1].v[i][k] - surface->level[0].v[i][k]) / dt;
             }
     surface_motion_copy(&surface->level[0], &surface->level[1], n);
+    surface_reopen(surface, t1);
+    memset(surface->impulse, 0, n * sizeof *surface->impulse);
+}
+
+void surface_reopen(struct surface *surface, double t1)
+{
     if (surface->moving)
         prescribe(surface, t1, &surface->level[1]);
     surface->level[1].t = t1;
-    memset(surface->impulse, 0, n * sizeof *surface->impulse);
+}
+
+/** Place and velocity of point @p i at the part @p s of the step: the cubic of Hermite and its derivative. */
+static void point_between(const struct surface *surface, size_t i, double s, double x[3], double v[3])
+{
+    const struct surface_motion *l0 = &surface->level[0], *l1 = &surface->level[1];
+    const double dt = l1->t - l0->t, r = 1.0 - s;
+    for (int k = 0; k < 3; ++k) {
+        const double way = l1->x[i][k] - l0->x[i][k], v0 = l0->v[i][k], v1 = l1->v[i][k];
+        x[k] = l0->x[i][k] + s * s * (3.0 - 2.0 * s) * way + dt * s * r * (r * v0 - s * v1);
+        v[k] = 6.0 * s * r * way / dt + r * (1.0 - 3.0 * s) * v0 + s * (3.0 * s - 2.0) * v1;
+    }
 }
 
 void surface_at(struct surface *surface, double t)
@@ -211,15 +236,42 @@ void surface_at(struct surface *surface, double t)
     } else if (t == l0->t || l1->t == l0->t) {
         surface_motion_copy(&surface->now, l0, n);
     } else {
-        double s = (t - l0->t) / (l1->t - l0->t), r = 1.0 - s;
-        for (size_t i = 0; i < n; ++i)
-            for (int k = 0; k < 3; ++k) {
-                surface->now.x[i][k] = r * l0->x[i][k] + s * l1->x[i][k];
-                surface->now.v[i][k] = r * l0->v[i][k] + s * l1->v[i][k];
-                surface->now.a[i][k] = r * l0->a[i][k] + s * l1->a[i][k];
-            }
+        const double s = (t - l0->t) / (l1->t - l0->t);
+        for (size_t i = 0; i < n; ++i) {
+            point_between(surface, i, s, surface->now.x[i], surface->now.v[i]);
+            for (int k = 0; k < 3; ++k)
+                surface->now.a[i][k] = (1.0 - s) * l0->a[i][k] + s * l1->a[i][k];
+        }
     }
     surface->now.t = t;
+}
+
+double surface_travel(const struct surface *surface, double t, double dt)
+{
+    const struct surface_motion *l0 = &surface->level[0], *l1 = &surface->level[1];
+    const double step = l1->t - l0->t;
+    const bool whole = !(dt < (1.0 - 1e-9) * step);
+    double farthest = 0.0;
+    for (size_t i = 0; i < surface->n_points; ++i) {
+        double before[3], after[3], v[3], square = 0.0;
+        if (!whole) {
+            point_between(surface, i, (t - dt - l0->t) / step, before, v);
+            point_between(surface, i, (t - l0->t) / step, after, v);
+        }
+        for (int k = 0; k < 3; ++k) {
+            const double way = whole ? l1->x[i][k] - l0->x[i][k] : after[k] - before[k];
+            square += way * way;
+        }
+        farthest = fmax(farthest, square);
+    }
+    return sqrt(farthest);
+}
+
+void surface_show(struct surface *surface, bool now)
+{
+    surface->shown = now ? &surface->now : &surface->level[1];
+    surface->field_list[FIELD_VELOCITY].data[0] = surface->shown->v;
+    surface->field_list[FIELD_ACCELERATION].data[0] = surface->shown->a;
 }
 
 void surface_mark(struct surface *surface)

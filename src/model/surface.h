@@ -41,17 +41,19 @@ struct surface {
     int32_t *mesh_node; /**< per point: node of that mesh */
     bool coupled;       /**< some point is moved by a solid */
     bool moving;        /**< coupled, or its prescribed motion moves */
+    bool sub_cycled;    /**< its steps span several of the fluid's, in which the impulse adds up */
     enum surface_rule rule;
-    struct surface_motion level[2]; /**< start and end of the step */
-    struct surface_motion now;      /**< as evaluated by surface_at */
-    struct surface_motion trial;    /**< the solid's answer */
-    double (*listed)[3];            /**< places when the lists of near particles were made (surface_mark) */
+    struct surface_motion level[2];     /**< start and end of the step */
+    struct surface_motion now;          /**< as evaluated by surface_at */
+    struct surface_motion trial;        /**< the solid's answer */
+    const struct surface_motion *shown; /**< what output shows: level 1, or now (surface_show) */
+    double (*listed)[3]; /**< places when the lists of near particles were made (surface_mark) */
     double (*load)[3], (*load_previous)[3], (*impulse)[3]; /**< N, N, N s (2-D: per metre of depth) */
     double moment[3]; /**< analytic surfaces: of the load about the point, N m */
     size_t n_added_mass, added_mass_capacity;
     struct added_mass_contact *added_mass;
     struct field_group fields; /**< named "surface-NAME" */
-    struct field field_list[6];
+    struct field field_list[7];
 };
 
 /** Build surface @p index of the model at time @p t (prescribed points at their places, mesh points at X plus
@@ -63,9 +65,19 @@ void surface_destroy(struct surface *surface);
  * 1 until the solid predicts); impulse := 0. */
 void surface_open(struct surface *surface, double t1);
 
-/** Fill @c now for time @p t: linear interpolation of x, v, a between the levels (the end times give the
- * levels bit for bit). */
+/** Go on within a step that was opened before a checkpoint: both levels hold its start (surface_resume,
+ * solid_resume); as surface_open, but the impulse stays. */
+void surface_reopen(struct surface *surface, double t1);
+
+/** Fill @c now for time @p t between the levels: x on the cubic through places and velocities, v its
+ * derivative, a linear (the end times give the levels bit for bit). */
 void surface_at(struct surface *surface, double t);
+
+/** How far the point that goes farthest goes between @p t - @p dt and @p t, m. */
+double surface_travel(const struct surface *surface, double t, double dt);
+
+/** Let output show @c now (inside a step) or level 1 (otherwise). */
+void surface_show(struct surface *surface, bool now);
 
 /** Remember the places @c now: lists are made for them. */
 void surface_mark(struct surface *surface);

@@ -162,7 +162,7 @@ static int surfaces_write(struct frames *frames, const struct frame_writer *writ
         char *name = memory_print("surface-%s", surface->definition->name);
         CHECK_MEMORY(name);
         const struct frame_part part = {.name = name,
-                                        .places = (const double(*)[3])surface->level[1].x,
+                                        .places = (const double(*)[3])surface->shown->x,
                                         .points = &surface->fields,
                                         .facets = (const int32_t(*)[4])surface->nodes,
                                         .n_facets = surface->n_facets};

@@ -274,9 +274,13 @@ static int monitor_write(const struct monitors *monitors, struct monitor *monito
     const struct coupling *coupling = monitors->coupling;
     switch (monitor->definition->kind) {
     case HISTORY_POINT: {
-        double row[7] = {t}, a[3];
+        double row[7] = {t}, a[3], behind = coupling->solids_behind;
         solid_evaluate(coupling->parts.solids[monitor->definition->mesh], &monitor->place, row + 1, row + 4,
                        a);
+        for (int k = 0; k < 3 && behind > 0.0; ++k) { /* inside a step of the solid */
+            row[1 + k] += behind * (row[4 + k] + 0.5 * behind * a[k]);
+            row[4 + k] += behind * a[k];
+        }
         return history_row(&monitor->file, row);
     }
     case HISTORY_FORCE:

@@ -176,6 +176,8 @@ static void print_coupling(const struct model *model, FILE *stream)
     if (strcmp(coupling->scheme, "none") == 0)
         return;
     fprintf(stream, "coupling   %s, acceleration %s", coupling->scheme, coupling->acceleration);
+    if (coupling->solid_every > 0)
+        fprintf(stream, ", a step of the solid every %d", coupling->solid_every);
     if (coupling->tolerance > 0.0)
         fprintf(stream, ", tolerance %.3g m/s", coupling->tolerance);
     if (coupling->force_tolerance > 0.0)

@@ -155,6 +155,7 @@ static int create(struct solid *solid)
     continuum->material.law->prepare(material, continuum->material.parameters);
     continuum->density = material->density;
     continuum->method = generalized_alpha_of(definition->rho_infinity);
+    solid->end_weight = 1 - continuum->method.alpha_f;
     CALL(continuum_build(continuum));
     CALL(create_vectors(continuum));
     if (continuum->n_free > 0)

@@ -69,6 +69,18 @@ static void external_forces(struct continuum *continuum, const double (*given)[3
             external[a][i] = given[a][i] + continuum->f_interface[a][i];
 }
 
+/** External forces of the step from the loads now on the attached surfaces: of its end, or, where these are
+ * means over the step, with the same share of theirs at both ends. */
+static void step_forces(struct continuum *continuum)
+{
+    const struct solid *solid = continuum->solid;
+    if (solid->mean_loads) {
+        given_loads(continuum, solid->t, continuum->work);
+        external_forces(continuum, (const double(*)[3])continuum->work, continuum->state.f_external);
+    }
+    external_forces(continuum, (const double(*)[3])continuum->f_given, continuum->trial.f_external);
+}
+
 /** Set what supports prescribe at time @p t. */
 static void prescribe(const struct continuum *continuum, double t, struct continuum_nodes *nodes)
 {
@@ -322,7 +334,7 @@ int continuum_solve(struct solid *solid)
 {
     struct continuum *continuum = solid->data;
     bool inverted;
-    external_forces(continuum, (const double(*)[3])continuum->f_given, continuum->trial.f_external);
+    step_forces(continuum);
     continuum->factored = false; /* the solver's factor is no longer the kept one */
     CALL(newton(continuum, &inverted));
     if (inverted) { /* with a long step the prediction may lead too far */
@@ -359,7 +371,7 @@ static int apply_added_mass(void *context, const double *v, double *z, double *w
 {
     struct continuum *continuum = context;
     const double dt = continuum->solid->dt;
-    const double factor = (1 - continuum->method.alpha_f) / (continuum->method.beta * dt * dt);
+    const double factor = continuum->solid->end_weight / (continuum->method.beta * dt * dt);
     CALL(sparse_solver_solve(continuum->solver, v, z));
     memset(continuum->work, 0, vector_size(continuum));
     memset(continuum->work2, 0, vector_size(continuum));
@@ -393,7 +405,7 @@ int continuum_correct(struct solid *solid, bool added_mass)
         trial_from_displacement(continuum, (const double(*)[3])trial->d);
     else
         prescribe(continuum, solid->t + solid->dt, trial);
-    external_forces(continuum, (const double(*)[3])continuum->f_given, trial->f_external);
+    step_forces(continuum);
     if (continuum_internal_forces(continuum, (const double(*)[3])trial->d, trial->f_internal))
         return continuum_report_inverted(continuum, solid->t + solid->dt);
     const double norm = residual(continuum);

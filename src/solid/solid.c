@@ -36,6 +36,7 @@ int solid_create(struct solid **created, const struct model *model, int index)
     solid->definition = &model->meshes[index];
     solid->index = index;
     solid->type = find_type(solid->definition);
+    solid->end_weight = 0.5;
     solid->claimed = memory_create(solid->definition->mesh.n_nodes, sizeof *solid->claimed);
     const int status = solid->claimed ? solid->type->create(solid) : STATUS_MEMORY;
     if (status) {
@@ -81,6 +82,16 @@ int solid_start(struct solid *solid, double t)
 void solid_load(struct solid *solid)
 {
     solid->type->load(solid);
+}
+
+void solid_take_means(struct solid *solid)
+{
+    solid->mean_loads = true;
+}
+
+double solid_end_weight(const struct solid *solid)
+{
+    return solid->end_weight;
 }
 
 int solid_state(const struct solid *solid, struct field_list *list)

@@ -39,6 +39,13 @@ int solid_start(struct solid *solid, double t);
  * solid_start. */
 void solid_load(struct solid *solid);
 
+/** From now on the loads on attached surfaces are means over the solid's step, not those of its end: they
+ * enter the balance whole. */
+void solid_take_means(struct solid *solid);
+
+/** Weight of forces at the end of a step in the solid's balance of it (generalised-alpha: 1 - alpha_f). */
+double solid_end_weight(const struct solid *solid);
+
 /** Add everything that the next step reads of the solid. */
 int solid_state(const struct solid *solid, struct field_list *list);
 

@@ -38,8 +38,10 @@ struct solid {
     const struct solid_type *type;
     const struct model *model;
     const struct model_mesh *definition;
-    int index;    /**< of the mesh in the model */
-    double t, dt; /**< start and length of the step under way, s */
+    int index;         /**< of the mesh in the model */
+    double t, dt;      /**< start and length of the step under way, s */
+    bool mean_loads;   /**< loads on the surfaces are means over the step */
+    double end_weight; /**< of forces at the end of a step; the discretisation sets it if not 1/2 */
     size_t n_attachments;
     struct attachment *attachments;
     bool *claimed; /**< per node: an attachment has it */

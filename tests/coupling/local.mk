@@ -4,6 +4,12 @@ tests_coupling_test_relaxation_SOURCES = tests/coupling/test_relaxation.c
 tests_coupling_test_relaxation_LDADD = $(test_libs)
 TESTS += tests/coupling/test_relaxation
 
+check_PROGRAMS += tests/coupling/test_sub_cycled
+tests_coupling_test_sub_cycled_SOURCES = tests/coupling/test_sub_cycled.c tests/run/beam_deck.h $(test_assembly)
+tests_coupling_test_sub_cycled_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
+tests_coupling_test_sub_cycled_LDADD = $(test_libs)
+TESTS += tests/coupling/test_sub_cycled
+
 check_PROGRAMS += tests/coupling/test_quasi_newton
 tests_coupling_test_quasi_newton_SOURCES = tests/coupling/test_quasi_newton.c
 tests_coupling_test_quasi_newton_LDADD = $(test_libs)

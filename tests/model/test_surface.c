@@ -107,15 +107,58 @@ static void test_levels(void **state)
     assert_memory_equal(s->now.a, s->level[0].a, sizeof first);
     surface_at(s, 0.7);
     assert_memory_equal(s->now.x, s->level[1].x, sizeof first);
+    // a quarter of the way, 0.1 m and -1.125 m/s at both ends: 5/32 0.1 + 0.2 (9/64 - 3/64) (-1.125)
     surface_at(s, 0.55);
-    assert_true(fabs(s->now.x[2][0] - 2.25 - 0.025) < 1e-15);
-    assert_true(fabs(s->now.v[0][0] - 0.75 * s->level[0].v[0][0] - 0.25 * s->level[1].v[0][0]) < 1e-15);
+    assert_true(fabs(s->now.x[2][0] - 2.25 - (0.015625 - 0.02109375)) < 1e-15);
+    assert_true(fabs(s->now.v[2][0] - (1.125 * 0.5 - 1.125 * (0.1875 - 0.3125))) < 1e-14);
+    // the cubic is exact for the prescribed parabola, its derivative too
+    assert_true(fabs(s->now.x[0][0] - 0.5 - 0.2 * 0.55 * 0.55) < 1e-9);
+    assert_true(fabs(s->now.v[0][0] - 0.4 * 0.55) < 1e-7);
+    assert_true(fabs(s->now.a[0][0] - 0.75 * s->level[0].a[0][0] - 0.25 * s->level[1].a[0][0]) < 1e-15);
     s->rule = SURFACE_MEAN;
     surface_open(s, 0.9);
     surface_at(s, 0.8);
     assert_memory_equal(s->now.x, s->level[0].x, sizeof first);
     assert_true(fabs(s->now.v[2][0] - 0.5) < 1e-13); // 0.1 m in 0.2 s, the step before
     assert_true(fabs(s->now.a[0][0] - 0.4) < 1e-6);
+    teardown(&f);
+}
+
+/** How far points go in a part of the step, and what is shown inside it. */
+static void test_parts_of_a_step(void **state)
+{
+    (void)state;
+    struct fixture f;
+    setup(&f);
+    struct surface *s = f.surface;
+    surface_open(s, 0.9);
+    s->level[1].v[2][0] = s->level[0].v[2][0] = 0.5;
+    s->level[1].x[2][0] += 0.2;
+    s->level[1].x[2][1] += 0.65;
+    assert_true(fabs(surface_travel(s, 0.9, 0.4) - hypot(0.2, 0.65)) < 1e-15);
+    // x goes evenly, y as s^2 (3 - 2 s) between: from s = 1/4 to 1/2
+    const double way[2] = {0.05, 0.65 * (0.5 - 0.15625)};
+    assert_true(fabs(surface_travel(s, 0.7, 0.1) - hypot(way[0], way[1])) < 1e-15);
+    const struct field *velocity = field_find(&s->fields, "Velocity");
+    const struct field *displacement = field_find(&s->fields, "Displacement");
+    double values[3][3];
+    surface_at(s, 0.6);
+    for (int now = 1; now >= 0; --now) {
+        const struct surface_motion *shown = now ? &s->now : &s->level[1];
+        surface_show(s, now);
+        assert_memory_equal(s->shown->x, shown->x, sizeof values);
+        assert_int_equal(field_read(&s->fields, velocity, values), 0);
+        assert_memory_equal(values, shown->v, sizeof values);
+        assert_int_equal(field_read(&s->fields, displacement, values), 0);
+        assert_true(values[2][0] == shown->x[2][0] - 2.25);
+    }
+    // gone on with: prescribed points at the end of the step, the impulse as it was
+    s->impulse[0][1] = 0.75;
+    surface_resume(s, 0.5);
+    surface_reopen(s, 0.9);
+    assert_true(s->impulse[0][1] == 0.75);
+    assert_true(s->level[0].t == 0.5 && s->level[1].t == 0.9);
+    assert_true(fabs(s->level[1].x[1][0] - 1.5 - 0.2 * 0.81) < 1e-15);
     teardown(&f);
 }
 
@@ -218,8 +261,10 @@ static void test_analytic(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_create),     cmocka_unit_test(test_levels), cmocka_unit_test(test_loads),
-        cmocka_unit_test(test_added_mass), cmocka_unit_test(test_spread), cmocka_unit_test(test_analytic),
+        cmocka_unit_test(test_create),     cmocka_unit_test(test_levels),
+        cmocka_unit_test(test_loads),      cmocka_unit_test(test_parts_of_a_step),
+        cmocka_unit_test(test_added_mass), cmocka_unit_test(test_spread),
+        cmocka_unit_test(test_analytic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
