@@ -64,11 +64,14 @@ int continuum_fields(struct continuum *continuum)
 {
     const char *newton = continuum->dim == 2 ? "N/m" : "N", *joule = continuum->dim == 2 ? "J/m" : "J";
     struct continuum_nodes *state = &continuum->state;
+    /* output within a step of several fluid steps shows that of the step before */
+    const bool sub_cycled = continuum->solid->model->coupling.solid_every > 0;
+    const unsigned interface = FIELD_OUTPUT | (sub_cycled ? FIELD_STATE : 0);
     const struct field node_fields[CONTINUUM_NODE_FIELDS] = {
         vector_field("Displacement", "m", FIELD_STATE | FIELD_OUTPUT, state->d),
         vector_field("Velocity", "m/s", FIELD_STATE | FIELD_OUTPUT, state->v),
         vector_field("Acceleration", "m/s^2", FIELD_STATE | FIELD_OUTPUT, state->a),
-        vector_field("InterfaceForce", newton, FIELD_OUTPUT, continuum->f_interface),
+        vector_field("InterfaceForce", newton, interface, continuum->f_interface),
         vector_field("ReactionForce", newton, FIELD_STATE | FIELD_OUTPUT, continuum->reaction),
         vector_field("PreviousAcceleration", "m/s^2", FIELD_STATE, continuum->a_before),
         vector_field("InternalForce", newton, FIELD_STATE, state->f_internal),

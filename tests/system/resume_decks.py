@@ -166,9 +166,10 @@ def channel(dim, part):
     text += "</boundaries>\n"
     if solid:
         # the published rule for corners jumps where contact points come and go: it converges no further
-        text += '<coupling scheme="%s" acceleration="%s" relaxation="%s" tolerance="%s"/>\n' % (
+        # checkpoints lie within steps of the solid of 4 fluid steps
+        text += '<coupling scheme="%s" acceleration="%s" relaxation="%s" tolerance="%s"%s/>\n' % (
             part["scheme"], part["acceleration"], "1" if part["acceleration"] in ("added-mass", "none") else "0.7",
-            "1e-3" if part["corners"] == "paper" else "1e-6")
+            "1e-3" if part["corners"] == "paper" else "1e-6", ' solid-every="4"' if part["scheme"] == "sub-cycled" else "")
         if part["corners"] == "paper":
             # its viscous term divides by a distance that vanishes at corners, exactly so on a lattice in line with them
             text = text.replace('kinematic-viscosity="0.02"', 'kinematic-viscosity="0"')

@@ -193,7 +193,8 @@ def chain(skerry, folder, number, name, deck):
 
 
 def test_chain(skerry, folder):
-    decks = chosen(skerry, "beam2-.*-characteristic-quad4-eas-shares-yes-fixed-point-aitken-.*",
+    decks = chosen(skerry, "beam2-.*-characteristic-quad4-eas-shares-yes-fixed-point-iqn-ils-.*",
+                   "beam2-.*-characteristic-quad4-eas-shares-yes-sub-cycled-added-mass-.*",
                    "moving2-fixed-particles-edged-translation-.*")
     if LONG:
         decks += chosen(skerry, "beam3-.*-momentum-hex8-f-bar-shares-.*", "moving3-sliding-particles-edged-rotation-.*",
@@ -298,6 +299,8 @@ def perturb_all(skerry, folder, number, name, deck):
 
 def test_perturb(skerry, folder):
     decks = chosen(skerry, "beam2-.*-characteristic-quad4-eas-shares-yes-fixed-point-added-mass-.*",
+                   "beam2-.*-characteristic-quad4-eas-shares-yes-fixed-point-iqn-ils-.*",
+                   "beam2-.*-characteristic-quad4-eas-shares-yes-sub-cycled-added-mass-.*",
                    "moving2-sliding-particles-round-rotation-.*", "moving2-fixed-particles-edged-translation-.*",
                    "raft-.*", "burst-.*", "alone2-quad4-full-moving")
     acts = {}
