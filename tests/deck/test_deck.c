@@ -119,6 +119,43 @@ static void test_values(void **state)
     model_destroy(model);
 }
 
+/** What a scheme, an acceleration or a criterion brings with it. */
+static void test_coupling(void **state)
+{
+    (void)state;
+    static const char *const given = "<coupling tolerance='1e-6' iterations='10' acceleration='aitken' "
+                                     "relaxation='0.5'/>";
+    write_deck(deck_of_everything);
+    struct model *model = read_deck();
+    assert_near(model->coupling.tolerance, 1e-6);
+    assert_true(model->coupling.force_tolerance == 0.0 && model->coupling.solid_every == 0);
+    assert_int_equal(model->coupling.predictor, PREDICTOR_LINEAR);
+    model_destroy(model);
+
+    write_variant(given, "<coupling force-tolerance='2.5 mN' acceleration='iqn-ils' reused-steps='3'/>");
+    model = read_deck();
+    assert_true(model->coupling.tolerance == 0.0); // only what is asked for
+    assert_near(model->coupling.force_tolerance, 2.5e-3);
+    assert_int_equal(model->coupling.reused_steps, 3);
+    assert_near(model->coupling.filter, 1e-2);
+    assert_int_equal(model->coupling.iterations, 50);
+    model_destroy(model);
+
+    write_variant(given, "<coupling scheme='sub-cycled'/>");
+    model = read_deck();
+    assert_near(model->coupling.tolerance, 1e-8);
+    assert_int_equal(model->coupling.solid_every, 2);
+    assert_int_equal(model->coupling.predictor, PREDICTOR_CONSTANT);
+    assert_string_equal(model->coupling.acceleration, "added-mass");
+    model_destroy(model);
+
+    write_variant(given, "<coupling scheme='sub-cycled' solid-every='6' predictor='zero-acceleration'/>");
+    model = read_deck();
+    assert_int_equal(model->coupling.solid_every, 6);
+    assert_int_equal(model->coupling.predictor, PREDICTOR_ZERO);
+    model_destroy(model);
+}
+
 static void test_regions(void **state)
 {
     (void)state;
@@ -489,12 +526,12 @@ static void test_parts_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),     cmocka_unit_test(test_regions),
-        cmocka_unit_test(test_meshes),     cmocka_unit_test(test_surfaces),
-        cmocka_unit_test(test_boundaries), cmocka_unit_test(test_checkpoints),
-        cmocka_unit_test(test_inputs),     cmocka_unit_test(test_input_of_deck),
-        cmocka_unit_test(test_show),       cmocka_unit_test(test_overrides),
-        cmocka_unit_test(test_lists),      cmocka_unit_test(test_mistakes),
-        cmocka_unit_test(test_parts_alone)};
+        cmocka_unit_test(test_values),        cmocka_unit_test(test_coupling),
+        cmocka_unit_test(test_regions),       cmocka_unit_test(test_meshes),
+        cmocka_unit_test(test_surfaces),      cmocka_unit_test(test_boundaries),
+        cmocka_unit_test(test_checkpoints),   cmocka_unit_test(test_inputs),
+        cmocka_unit_test(test_input_of_deck), cmocka_unit_test(test_show),
+        cmocka_unit_test(test_overrides),     cmocka_unit_test(test_lists),
+        cmocka_unit_test(test_mistakes),      cmocka_unit_test(test_parts_alone)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -51,6 +51,9 @@ done
 refused "0.41/69 = 0.00594.* and 0.41/68 = 0.00602" turek-hron-fsi2 --dx 0.006
 refused "0.2/28 = .* and 0.2/27 = " hydrostatic-plates --dx 0.0073
 refused "--length" turek-hron-fsi2 --length 9
+refused "give one" turek-hron-fsi2 --density-ratio 1 --solid-density 3
+refused "nothing to accelerate by aitken" turek-hron-fsi2 --solid-every 2 --acceleration aitken
+refused "1 fluid step or more" turek-hron-fsi2 --solid-every 0
 refused "dx = 0.004 only" exact-pressurewave-1d --dx 0.002
 refused "sliding-particles" hydrostatic-plates --wall fixed-particles --no-pressure-gradient
 refused "too coarse" taylor-couette --facets 5
@@ -79,6 +82,8 @@ done
 try turek-hron-fsi2 --dx 0.41/50
 try turek-hron-fsi2 --dx 0.41/50 --rigid --corners paper
 try turek-hron-fsi2 --dx 0.41/50 --solid-density 5 --young 2800 --length 0.3 --acceleration aitken
+try turek-hron-fsi2 --dx 0.41/50 --density-ratio 0.1 --acceleration iqn-ils
+try turek-hron-fsi2 --dx 0.41/50 --density-ratio 1 --solid-every 4
 try taylor-couette --facets 48
 try taylor-couette --facets 192 --corners paper
 try taylor-couette --wall fixed-particles
@@ -91,6 +96,9 @@ try isochoric-box --dx 0.0025
 try channel --wall fixed-particles --dx 0.01
 try box-2d --cells 31 29
 try box-3d --cells 12 13 14
+grep -q 'density="0.1" young="5600"' "$work"/variant*.xml || fail "--density-ratio had no effect"
+grep -q 'scheme="sub-cycled" solid-every="4" acceleration="added-mass"' "$work"/variant*.xml || fail "--solid-every had no effect"
+grep -q 'acceleration="iqn-ils" relaxation="0.5"' "$work"/variant*.xml || fail "--acceleration iqn-ils had no effect"
 grep -q 'density="5" young="2800"' "$work"/variant*.xml || fail "--solid-density, --young had no effect"
 grep -q 'upper="0.55 0.21" cells="30 3"' "$work"/variant*.xml || fail "--length had no effect"
 
