@@ -7,26 +7,13 @@
 #include "output/lettering.h"
 #include "output/picture_parts.h"
 #include "output/scene.h"
+#include "output/series.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 static const struct colour ink = {40, 44, 52}, faint = {150, 155, 162};
-
-// Unit of the arrays that skerry writes.
-static const char *unit_find(const char *field)
-{
-    static const char *const units[][2] = {
-        {"Speed", "m/s"},        {"Velocity", "m/s"},       {"Pressure", "Pa"},   {"Density", "kg/m^3"},
-        {"Mass", "kg"},          {"SmoothingLength", "m"},  {"Vorticity", "1/s"}, {"Acceleration", "m/s^2"},
-        {"Displacement", "m"},   {"CauchyStress", "Pa"},    {"VonMises", "Pa"},   {"ReactionForce", "N"},
-        {"InterfaceForce", "N"}, {"StrainEnergy", "J/m^3"}, {"Position", "m"}};
-    for (size_t i = 0; i < sizeof units / sizeof units[0]; ++i)
-        if (strcmp(units[i][0], field) == 0)
-            return units[i][1];
-    return NULL;
-}
 
 // Round numbers along a scale.
 struct ticks {
@@ -160,7 +147,7 @@ static void axis_draw(struct canvas *canvas, const struct layout *layout, int di
 }
 
 static void bar_draw(struct canvas *canvas, const struct layout *layout, const double range[2],
-                     const char *field)
+                     const char *field, int dim)
 {
     double length = layout->bar_x1 - layout->bar_x0, letter = layout->letter, small = 0.8 * letter;
     int columns = (int)ceil(length);
@@ -181,7 +168,7 @@ static void bar_draw(struct canvas *canvas, const struct layout *layout, const d
         lettering_draw(canvas, x, layout->bar_y1 + 0.8 * letter + 1.2 * small, small, LETTERING_CENTRE, ink,
                        text);
     }
-    label_print(field, unit_find(field), &ticks, text, sizeof text);
+    label_print(field, series_unit(field, dim), &ticks, text, sizeof text);
     lettering_draw(canvas, 0.5 * (layout->bar_x0 + layout->bar_x1), layout->bar_y0 - 0.8 * letter, letter,
                    LETTERING_CENTRE, ink, text);
 }
@@ -236,7 +223,7 @@ static void scene_draw(struct canvas *canvas, const struct scene *scene, const s
                    ink, time);
     axis_draw(canvas, layout, 0);
     axis_draw(canvas, layout, 1);
-    bar_draw(canvas, layout, range, picture->field);
+    bar_draw(canvas, layout, range, picture->field, scene->dim);
 }
 
 static int canvas_fill(const struct scene *scene, const struct picture *picture)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/picture_parts.h"
 
+#include "output/series.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -75,7 +77,7 @@ static void place(const struct scene *scene, const struct scene_part *part, cons
                   int64_t node, double layer, double p[3])
 {
     double x[3];
-    scene_point(&part->file.grid, (size_t)node, x);
+    series_point(&part->file.grid, (size_t)node, x);
     p[0] = frame->x0 + (x[0] - frame->left) * frame->scale;
     p[1] = frame->y0 + (frame->top - x[1]) * frame->scale;
     p[2] = scene->dim == 3 ? x[2] * frame->scale : layer;

@@ -10,7 +10,7 @@
 /** One frame of an output folder as it is to be drawn. */
 
 struct scene_part {
-    char name[64]; /**< "fluid", "solid-beam", "surface-channel" */
+    char name[96]; /**< "fluid", "solid-beam", "surface-channel" */
     struct vtu_file file;
     double *values; /**< of the field at each point; NULL: the part is not coloured */
     double size;    /**< distance of its particles, m; 0: it has none */
@@ -30,8 +30,5 @@ struct scene {
 /** Read the frame that @p picture asks for, with the values of its field. */
 int scene_create(struct scene *scene, const struct picture *picture);
 void scene_reset(struct scene *scene);
-
-/** Place of a point, m. */
-void scene_point(const struct vtu_grid *grid, size_t index, double x[3]);
 
 #endif
