@@ -10,6 +10,7 @@
 #include "deck/deck_schema.h"
 #include "output/picture.h"
 #include "run/preview.h"
+#include "run/probe.h"
 #include "run/record.h"
 #include "run/simulation.h"
 #include "run/status.h"
@@ -29,6 +30,8 @@ struct command {
     const char *operand; /**< DECK, OUTPUT or ELEMENT; NULL: none given */
     struct run_options run;
     struct picture picture;
+    struct probe probe;
+    struct probe_place *places;
     size_t n_overrides;
     const char **overrides;
     const char *log;
@@ -164,13 +167,13 @@ static int set_isa(struct command *command, const char *value)
 
 static int set_field(struct command *command, const char *value)
 {
-    command->picture.field = value;
+    command->picture.field = command->probe.fields = value;
     return 0;
 }
 
 static int set_frame(struct command *command, const char *value)
 {
-    command->picture.frame = value;
+    command->picture.frame = command->probe.frames = value;
     return 0;
 }
 
@@ -205,6 +208,44 @@ static int set_file(struct command *command, const char *value)
     return 0;
 }
 
+static int place_add(struct command *command, enum probe_kind kind, const char *value)
+{
+    command->places[command->probe.n_places++] = (struct probe_place){kind, value};
+    return 0;
+}
+
+static int set_point(struct command *command, const char *value)
+{
+    return place_add(command, PROBE_POINT, value);
+}
+
+static int set_points(struct command *command, const char *value)
+{
+    return place_add(command, PROBE_POINTS, value);
+}
+
+static int set_line(struct command *command, const char *value)
+{
+    return place_add(command, PROBE_LINE, value);
+}
+
+static int set_grid(struct command *command, const char *value)
+{
+    return place_add(command, PROBE_GRID, value);
+}
+
+static int set_time(struct command *command, const char *value)
+{
+    command->probe.time = value;
+    return 0;
+}
+
+static int set_probe_file(struct command *command, const char *value)
+{
+    command->probe.file = value;
+    return 0;
+}
+
 static int set_help(struct command *command, const char *value)
 {
     (void)value;
@@ -219,8 +260,8 @@ static const struct option options[] = {
      set_override},
     {"--output", 'o', "DIR", "check run", "folder of the output (default: NAME.out in the current folder)",
      set_output},
-    {"--threads", 'j', "THREADS", "run resume", "number of threads (default: the CPUs this process may use)",
-     set_threads},
+    {"--threads", 'j', "THREADS", "run resume probe",
+     "number of threads (default: the CPUs this process may use)", set_threads},
     {"--until", 0, "TIME", "run resume",
      "stop after the first step that reaches TIME (in s); resume: also beyond the deck's end", set_until},
     {"--steps", 0, "N", "run resume",
@@ -246,7 +287,23 @@ static const struct option options[] = {
     {"--slab", 0, "Z0:Z1", "picture", "3-D: draw only what lies between (default: all)", set_slab},
     {"--width", 0, "PIXELS", "picture", "width of the picture (default: 1600)", set_width},
     {"--file", 0, "FILE", "picture", "PNG to write (default: OUTPUT/FIELD_FRAME.png)", set_file},
-    {"--help", 'h', NULL, "check run resume status show schema help picture", "this text", set_help},
+    {"--point", 0, "X,Y,Z", "probe", "a place, as many numbers as the run has dimensions (may be repeated)",
+     set_point},
+    {"--points", 0, "FILE", "probe",
+     "places from a CSV file: coordinates only, or with columns called x, y, z", set_points},
+    {"--line", 0, "FROM:TO:N", "probe", "N places from X,Y,Z to X,Y,Z (may be repeated)", set_line},
+    {"--grid", 0, "[LOWER:UPPER:]NXxNYxNZ", "probe",
+     "a regular grid between two corners X,Y,Z (default: those of the domain)", set_grid},
+    {"--field", 0, "NAME,...", "probe", "arrays of the fluid (default: Pressure,Velocity,Density)",
+     set_field},
+    {"--frame", 0, "FRAMES", "probe", "first, last, a number, all, A:B, or t=TIME (default: last)",
+     set_frame},
+    {"--time", 0, "TIME", "probe", "the frame nearest to TIME (in s)", set_time},
+    {"--output", 'o', "FILE", "probe",
+     "CSV (\"-\" or nothing: standard output), for a grid also .vti (default: OUTPUT/probe/grid_FRAME.vti); "
+     "several .vti get numbers and a .pvd",
+     set_probe_file},
+    {"--help", 'h', NULL, "check run resume status show schema help picture probe", "this text", set_help},
 };
 enum { N_OPTIONS = sizeof options / sizeof *options };
 
@@ -258,6 +315,7 @@ static int run_show(struct command *command);
 static int run_schema(struct command *command);
 static int run_help(struct command *command);
 static int run_picture(struct command *command);
+static int run_probe(struct command *command);
 
 static const struct verb {
     const char *name, *operand;
@@ -276,6 +334,7 @@ static const struct verb {
     {"schema", NULL, false, "print the XML schema of decks", run_schema},
     {"help", "ELEMENT", false, "print what an element of a deck takes", run_help},
     {"picture", "OUTPUT", true, "draw a frame of a run as PNG", run_picture},
+    {"probe", "OUTPUT", true, "fields of a run at points, along lines, on grids: CSV or .vti", run_probe},
 };
 enum { N_VERBS = sizeof verbs / sizeof *verbs };
 
@@ -503,6 +562,24 @@ static int run_picture(struct command *command)
     return picture_draw(&command->picture);
 }
 
+static int run_probe(struct command *command)
+{
+    struct record record;
+    struct model *model = NULL;
+    CALL(record_read(&record, command->operand));
+    log_set_level(LOG_ERROR); /* what is odd about the deck has been said when it was run */
+    int status = deck_read(&model, record.deck, record.n_overrides, (const char *const *)record.overrides);
+    log_set_level(LOG_INFO);
+    record_reset(&record);
+    CALL(status);
+    command->probe.output = command->operand;
+    command->probe.places = command->places;
+    command->probe.threads = command->run.threads;
+    status = probe_write(&command->probe, model);
+    model_destroy(model);
+    return status;
+}
+
 static int run_verb(const struct verb *verb, int n, char **arguments)
 {
     struct command command = {.run = {.steps = -1,
@@ -512,12 +589,15 @@ static int run_verb(const struct verb *verb, int n, char **arguments)
                                       .checkpoint_every = -1.0},
                               .picture = {.field = "Speed", .frame = "last", .width = 1600}};
     command.overrides = memory_create((size_t)n, sizeof *command.overrides);
-    CHECK_MEMORY(command.overrides);
-    int status = read_arguments(verb, n, arguments, &command);
+    command.places = memory_create((size_t)n, sizeof *command.places);
+    int status = command.overrides && command.places ? 0 : STATUS_MEMORY;
+    if (!status)
+        status = read_arguments(verb, n, arguments, &command);
     if (!status && command.help)
         print_verb(verb);
     else if (!status)
         status = verb->run(&command);
+    memory_free(command.places);
     memory_free(command.overrides);
     return status;
 }

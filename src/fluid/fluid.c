@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "fluid/fluid_internal.h"
 #include "fluid/fluid_list.h"
+#include "sph/shepard.h"
 
 #include <math.h>
 #include <string.h>
@@ -25,8 +26,7 @@ static void view_fill(struct fluid *fluid)
         .spacing = dx,
         .mass = fluid->material->density * pow(dx, model->dim),
         .skin = skin_ratio * dx,
-        .kernel = kernel_quintic(model->dim, model->fluid.smoothing_length_ratio * dx,
-                                 model->fluid.kernel_constant == KERNEL_PUBLISHED),
+        .kernel = kernel_of_model(model),
         .density = fluid->material->density,
         .sound_speed = fluid->material->sound_speed,
         .viscosity = fluid->material->density * fluid->material->kinematic_viscosity,
@@ -120,6 +120,8 @@ static int openings_create(struct fluid *fluid, const struct fluid_parts *parts)
     fluid->openings = memory_create(model->n_openings, sizeof *fluid->openings);
     CHECK_MEMORY(fluid->openings);
     double reach = fluid->view.kernel.support + fluid->skin, dx = fluid->view.spacing;
+    if (model->n_openings)
+        particles_add_flags(fluid->block, "Kind", FIELD_OUTPUT); /* tells zone particles from fluid */
     for (size_t k = 0; k < model->n_openings; ++k) {
         struct open_boundary *open = &fluid->openings[k];
         open->definition = &model->openings[k];
@@ -502,28 +504,20 @@ double fluid_probe(const struct fluid *fluid, const double x[3], double *pressur
                    double *density)
 {
     const struct particles *block = fluid->block;
-    struct cell_range ranges[CELL_GRID_RANGES];
-    size_t n = cell_grid_ranges(&fluid->grid, x, fluid->view.kernel.support, ranges);
-    double weight = 0.0, p = 0.0, rho = 0.0, u[3] = {0};
-    for (size_t r = 0; r < n; ++r)
-        for (uint32_t j = ranges[r].begin; j < ranges[r].end; ++j) {
-            double r2 = 0.0;
-            for (int k = 0; k < 3; ++k)
-                r2 += pow(x[k] - block->x[k][j] - ranges[r].shift[k], 2.0);
-            if (block->kind[j] != PARTICLE_FLUID ||
-                r2 >= fluid->view.kernel.support * fluid->view.kernel.support)
-                continue;
-            double w = block->m[j] / block->rho[j] * kernel_w(&fluid->view.kernel, sqrt(r2));
-            weight += w;
-            p += w * block->p[j];
-            rho += w * block->rho[j];
-            for (int k = 0; k < 3; ++k)
-                u[k] += w * block->u[k][j];
-        }
-    double inverse = weight > 0.0 ? 1.0 / weight : 0.0;
-    *pressure = p * inverse;
-    *density = rho * inverse;
-    for (int k = 0; k < 3; ++k)
-        velocity[k] = u[k] * inverse;
-    return weight;
+    const struct shepard particles = {.kernel = &fluid->view.kernel,
+                                      .grid = &fluid->grid,
+                                      .x = {block->x[0], block->x[1], block->x[2]},
+                                      .m = block->m,
+                                      .rho = block->rho,
+                                      .kind = block->kind};
+    const double *const values[] = {block->p, block->rho, block->u[0], block->u[1], block->u[2]};
+    enum { VALUES = sizeof values / sizeof *values };
+    double means[VALUES];
+    const double support = shepard_means(&particles, x, VALUES, values, means);
+    for (size_t v = 0; v < VALUES && !(support > 0.0); ++v)
+        means[v] = 0.0;
+    *pressure = means[0];
+    *density = means[1];
+    memcpy(velocity, &means[2], 3 * sizeof *velocity);
+    return support;
 }

@@ -67,8 +67,9 @@ const struct boundary *fluid_boundary(const struct fluid *fluid, size_t index);
 /** Particles born and removed at openings so far. */
 void fluid_openings_count(const struct fluid *fluid, int64_t *born, int64_t *removed);
 /** Fields of the moving block in the order of the output: Density and Mass first (ParaView's SPH filters
- * preselect them), then SmoothingLength, Velocity, Pressure, Id, and the optional Acceleration, Kind, Support
- * (sum V W), Vorticity. The group belongs to the fluid; its pointers are fresh until the next step. */
+ * preselect them), then SmoothingLength, Velocity, Pressure, Id, Kind where there are openings, and the
+ * optional Acceleration, Support (sum V W), Vorticity. The group belongs to the fluid; its pointers are fresh
+ * until the next step. */
 const struct field_group *fluid_output(struct fluid *fluid);
 
 /** Instruction set of the sweeps in use: "baseline", "v3" or "v4". */

@@ -608,3 +608,14 @@ int geometry_fill(const struct shape *shape, int dim, double spacing, const doub
     *n = filling.n;
     return 0;
 }
+
+double geometry_line(const double from[3], const double to[3], int n, int i, double x[3])
+{
+    const double s = n > 1 ? (double)i / (n - 1) : 0.0;
+    double length2 = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        length2 += (to[k] - from[k]) * (to[k] - from[k]);
+        x[k] = (1.0 - s) * from[k] + s * to[k];
+    }
+    return s * sqrt(length2);
+}

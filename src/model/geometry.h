@@ -55,4 +55,8 @@ double facets_distance(const struct facets *facets, const double x[3]);
 int geometry_fill(const struct shape *shape, int dim, double spacing, const double origin[3], double margin,
                   double (**points)[3], size_t *n);
 
+/** Place @p x of point @p i of @p n (at least 1), evenly spaced from @p from to @p to. Returns its distance
+ * from the first. */
+double geometry_line(const double from[3], const double to[3], int n, int i, double x[3]);
+
 #endif

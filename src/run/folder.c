@@ -20,11 +20,8 @@ static const char *const own_files[] = {"log.txt", "status.json", "summary.json"
                                         "view.py", "blowup.vtu",  "stop"};
 static const struct {
     const char *folder, *ending;
-} own_folders[] = {{"fields", ".vtu"},
-                   {"history", ".csv"},
-                   {"input", ".xml"},
-                   {"checkpoint", ".h5"},
-                   {"checkpoint", ".manifest"}};
+} own_folders[] = {{"fields", ".vtu"},          {"history", ".csv"}, {"input", ".xml"}, {"checkpoint", ".h5"},
+                   {"checkpoint", ".manifest"}, {"probe", ".vti"},   {"probe", ".pvd"}};
 
 static bool name_ends(const char *name, const char *ending)
 {

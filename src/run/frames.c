@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 static const char *const always[] = {
-    "Density",        "Mass",          "SmoothingLength", "Velocity", "Pressure",     "Id",  "Displacement",
-    "InterfaceForce", "ReactionForce", "CauchyStress",    "VonMises", "StrainEnergy", "Load"};
+    "Density",      "Mass",           "SmoothingLength", "Velocity",     "Pressure", "Id",           "Kind",
+    "Displacement", "InterfaceForce", "ReactionForce",   "CauchyStress", "VonMises", "StrainEnergy", "Load"};
 
 /** Virtual boundary particles of chosen fluid particles, collected for one frame. */
 struct virtual_block {

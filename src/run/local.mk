@@ -6,6 +6,9 @@ libskerry_la_SOURCES += \
 	src/run/monitor.c src/run/monitor.h \
 	src/run/preview.c src/run/preview.h \
 	src/run/preview_physics.c src/run/preview_physics.h \
+	src/run/probe.c src/run/probe.h \
+	src/run/probe_places.c src/run/probe_places.h \
+	src/run/probe_sums.c src/run/probe_sums.h \
 	src/run/progress.c src/run/progress.h \
 	src/run/record.c src/run/record.h \
 	src/run/saver.c src/run/saver.h \

@@ -3,9 +3,11 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "model/geometry.h"
 #include "output/history.h"
 
 #include <math.h>
+#include <string.h>
 
 struct monitor {
     const struct model_history *definition;
@@ -213,18 +215,13 @@ static int profile_rows(const struct monitors *monitors, struct monitor *monitor
     const struct model_history *definition = monitor->definition;
     const bool line = definition->kind == HISTORY_PROFILE;
     const int points = line ? definition->points : 1;
-    double length = 0.0;
-    for (int k = 0; k < 3; ++k)
-        length += pow(definition->to[k] - definition->from[k], 2.0);
     for (int i = 0; i < points; ++i) {
-        double row[11] = {t}, s = points > 1 ? (double)i / (points - 1) : 0.0, x[3];
+        double row[11] = {t}, x[3];
         double *value = line ? row + 5 : row + 1;
-        for (int k = 0; k < 3; ++k)
-            x[k] = line ? (1.0 - s) * definition->from[k] + s * definition->to[k] : definition->from[k];
+        const double s = geometry_line(definition->from, definition->to, points, i, x);
         if (line) {
-            row[1] = s * sqrt(length);
-            for (int k = 0; k < 3; ++k)
-                row[2 + k] = x[k];
+            row[1] = s;
+            memcpy(&row[2], x, sizeof x);
         }
         value[5] = fluid_probe(monitors->coupling->parts.fluid, x, &value[0], &value[1], &value[4]);
         CALL(history_row(&monitor->file, row));

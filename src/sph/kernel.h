@@ -2,6 +2,8 @@
 #ifndef SPH_KERNEL_H
 #define SPH_KERNEL_H
 
+#include "model/model.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -24,6 +26,13 @@ static inline struct kernel kernel_quintic(int dim, double h, bool published)
                   : dim == 2 ? 7.0 / (478.0 * pi * h * h)
                              : (published ? 3.0 / (359.0 * pi * h * h * h) : 1.0 / (120.0 * pi * h * h * h));
     return (struct kernel){dim, h, 3.0 * h, norm};
+}
+
+/** The kernel of the fluid of a problem. */
+static inline struct kernel kernel_of_model(const struct model *model)
+{
+    return kernel_quintic(model->dim, model->fluid.smoothing_length_ratio * model->fluid.spacing,
+                          model->fluid.kernel_constant == KERNEL_PUBLISHED);
 }
 
 /** Positive part, without the call that fmax is where NaN has to be obeyed. */

@@ -4,7 +4,8 @@ libskerry_la_SOURCES += \
 	src/sph/isa.c src/sph/isa.h \
 	src/sph/kernel.h \
 	src/sph/neighbour_list.c src/sph/neighbour_list.h \
-	src/sph/open_boundary.h
+	src/sph/open_boundary.h \
+	src/sph/shepard.c src/sph/shepard.h
 
 # Compiled once per instruction set (top Makefile.am).
 filter_sources = src/sph/neighbour_filter.c src/sph/sweep_vector.h
