@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Read the .vtu and .pvd files that skerry writes, with nothing but Python's standard library.
+"""Read the .vtu, .vti and .pvd files that skerry writes, with nothing but Python's standard library.
 
-A .vtu is an XML head followed by raw appended data: per array a header of unsigned 64-bit numbers (blocks, block
+A .vtu or .vti is an XML head followed by raw appended data: per array a header of unsigned 64-bit numbers (blocks, block
 size, size of the last block or 0, compressed sizes) and one zlib stream a block.
 """
 
@@ -20,7 +20,7 @@ class VtuError(Exception):
 
 
 class Grid:
-    """One .vtu: time, cycle, points (rows of 3, flat), arrays {name: (components, values)}."""
+    """One .vtu or .vti: time, cycle, points (rows of 3, flat), arrays {name: (components, values)}."""
 
     def __init__(self):
         self.time = None
@@ -73,6 +73,16 @@ def _field_data(root, grid):
                 grid.cycle = int(float(text[0]))
 
 
+def _image_points(root, piece):
+    """Places of the points of a .vti, x fastest."""
+    image = root.find("ImageData")
+    extent = [int(n) for n in piece.get("Extent").split()]
+    axes = [[origin + i * spacing for i in range(first, last + 1)]
+            for origin, spacing, first, last in zip(map(float, image.get("Origin").split()),
+                                                    map(float, image.get("Spacing").split()), extent[::2], extent[1::2])]
+    return array.array("d", [c for z in axes[2] for y in axes[1] for x in axes[0] for c in (x, y, z)])
+
+
 def read(path):
     """The Grid in the file at path."""
     with open(path, "rb") as stream:
@@ -92,7 +102,11 @@ def read(path):
     piece = root.find(".//Piece")
     if piece is None:
         raise VtuError("%s: has no Piece" % path)
-    grid.n_points = int(piece.get("NumberOfPoints"))
+    if root.get("type") == "ImageData":
+        grid.points = _image_points(root, piece)
+        grid.n_points = len(grid.points) // 3
+    else:
+        grid.n_points = int(piece.get("NumberOfPoints"))
 
     def load(entry):
         values = _appended(path, data, start, int(entry.get("offset")), entry.get("type"))
@@ -102,7 +116,8 @@ def read(path):
                            % (path, entry.get("Name"), len(values), components * grid.n_points))
         return components, values
 
-    grid.points = load(piece.find("Points/DataArray"))[1]
+    if root.get("type") != "ImageData":
+        grid.points = load(piece.find("Points/DataArray"))[1]
     for entry in piece.findall("PointData/DataArray"):
         grid.arrays[entry.get("Name")] = load(entry)
     return grid

@@ -67,6 +67,18 @@ if vtk:
     solid = grid_of("/solid.vtu")
     check("vtk solid", solid.GetCellType(1) == vtk.VTK_QUAD and solid.GetPoint(5) == (2.0, 1.0, 0.5))
     check("vtk stress", solid.GetCellData().GetArray("VonMises").GetValue(1) == -2.5e6)
+    reader = vtk.vtkXMLImageDataReader()
+    reader.SetFileName(folder + "/image.vti")
+    reader.Update()
+    image, data = reader.GetOutput(), reader.GetOutput().GetPointData()
+    check("vtk image", image.GetDimensions() == (5, 4, 3) and reader.GetErrorCode() == 0)
+    check("vtk image place", image.GetPoint(59) == (0.0, 1.75, 4.5))
+    pressure = [data.GetArray("Pressure").GetValue(i) for i in range(60)]
+    check("vtk image NaN", pressure[7] != pressure[7])
+    check("vtk image pressure", all(close(pressure[i], 1e5 + i / 3) for i in range(60) if i != 7))
+    check("vtk image velocity", data.GetArray("Velocity").GetTuple(58) == (0.0, -14.5, 0.0))
+    check("vtk image colouring", (data.GetScalars().GetName(), data.GetVectors().GetName()) == ("Pressure", "Velocity"))
+    check("vtk image time", image.GetFieldData().GetArray("TimeValue").GetValue(0) == 0.7)
     read.append("VTK " + vtk.vtkVersion().GetVTKVersion())
 print("read by " + " and ".join(read))
 END

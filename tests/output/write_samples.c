@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes files for other programs to read (readers.sh): write_samples FOLDER
+#include "output/vti.h"
 #include "output/vtu.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -63,6 +65,29 @@ static int solid_write(const char *path)
     return vtu_write(path, &grid);
 }
 
+static int image_write(const char *path)
+{
+    enum { NX = 5, NY = 4, NZ = 3 };
+    static float velocity[NX * NY * NZ][3];
+    static double pressure[NX * NY * NZ];
+    for (int i = 0; i < NX * NY * NZ; ++i) {
+        pressure[i] = i == 7 ? NAN : 1e5 + i / 3.0;
+        velocity[i][1] = -0.25F * (float)i;
+    }
+    const struct vtu_array arrays[] = {array("Pressure", 1, VTU_FLOAT64, pressure),
+                                       array("Velocity", 3, VTU_FLOAT32, velocity)};
+    const struct vti_image image = {.time = 0.7,
+                                    .cycle = 21,
+                                    .n = {NX, NY, NZ},
+                                    .origin = {-0.5, 0.25, 3.0},
+                                    .spacing = {0.125, 0.5, 0.75},
+                                    .n_arrays = 2,
+                                    .arrays = arrays,
+                                    .scalars = "Pressure",
+                                    .vectors = "Velocity"};
+    return vti_write(path, &image);
+}
+
 int main(int argc, char **argv)
 {
     char path[512];
@@ -71,5 +96,7 @@ int main(int argc, char **argv)
     snprintf(path, sizeof path, "%s/fluid.vtu", argv[1]);
     int status = fluid_write(path);
     snprintf(path, sizeof path, "%s/solid.vtu", argv[1]);
-    return status ? status : solid_write(path);
+    status = status ? status : solid_write(path);
+    snprintf(path, sizeof path, "%s/image.vti", argv[1]);
+    return status ? status : image_write(path);
 }

@@ -8,3 +8,8 @@ check_PROGRAMS += tests/sph/test_neighbour_list
 tests_sph_test_neighbour_list_SOURCES = tests/sph/test_neighbour_list.c tests/sph/points.h
 tests_sph_test_neighbour_list_LDADD = $(test_libs)
 TESTS += tests/sph/test_neighbour_list
+
+check_PROGRAMS += tests/sph/test_shepard
+tests_sph_test_shepard_SOURCES = tests/sph/test_shepard.c tests/sph/points.h
+tests_sph_test_shepard_LDADD = $(test_libs)
+TESTS += tests/sph/test_shepard
