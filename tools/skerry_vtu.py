@@ -136,10 +136,9 @@ def series(output, name):
     return sorted(entries)
 
 
-def history(path):
-    """A history file as {column name without unit: list of numbers}."""
-    with open(path, encoding="utf-8") as stream:
-        lines = [line for line in stream.read().split("\n") if line and not line.startswith("#")]
+def table(text):
+    """A table that skerry wrote as {column name without unit: list of numbers}; an empty cell is nan."""
+    lines = [line for line in text.split("\n") if line and not line.startswith("#")]
     names = [name.split("[")[0].strip() for name in lines[0].split(",")]
     columns = {name: [] for name in names}
     for line in lines[1:]:
@@ -147,5 +146,11 @@ def history(path):
         if len(values) != len(names):
             continue  # the row being written when the run was killed
         for name, value in zip(names, values):
-            columns[name].append(float(value))
+            columns[name].append(float(value or "nan"))
     return columns
+
+
+def history(path):
+    """A history file as a table."""
+    with open(path, encoding="utf-8") as stream:
+        return table(stream.read())

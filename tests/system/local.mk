@@ -36,3 +36,8 @@ TESTS += tests/system/test_threads.sh
 dist_check_SCRIPTS += tests/system/test_benchmarks.sh
 EXTRA_DIST += tests/system/test_benchmarks.py
 TESTS += tests/system/test_benchmarks.sh
+
+# Fields at places.
+dist_check_SCRIPTS += tests/system/test_probe.sh
+EXTRA_DIST += tests/system/test_probe.py
+TESTS += tests/system/test_probe.sh
