@@ -420,7 +420,8 @@ static const struct schema_attribute fields_attributes[] = {
     {"every", SCHEMA_REAL, .required = true, .range = RANGE_POSITIVE, .unit = "s",
      .doc = "time between frames"},
     {"arrays", SCHEMA_CHOICES, .choices = "Vorticity|Acceleration|Support", .fallback = "",
-     .doc = "arrays of the fluid besides density, mass, velocity, pressure, smoothing length and id"},
+     .doc = "arrays of the fluid besides density, mass, velocity, pressure, smoothing length, id and, with "
+            "openings, kind"},
     {"precision", SCHEMA_CHOICE, .choices = "float32|float64", .fallback = "float32",
      .doc = "of numbers in the files"},
     {"virtual-particles", SCHEMA_INTEGERS, .fallback = "",

@@ -44,7 +44,7 @@ grep -q '^skerry [0-9]' "$work/stdout" || fail "no version in: $(cat "$work/stdo
 grep -q '^libxml2 ' "$work/stdout" || fail "no libraries in: $(cat "$work/stdout")"
 expect 64 'unknown verb chekc; did you mean check?' chekc "$control"
 expect 64 'see skerry --help' zzzzzzzz
-for verb in check run show schema help picture; do
+for verb in check run show schema help picture probe; do
     expect 0 "usage: skerry $verb" "$verb" --help
     expect 0 "usage: skerry $verb" "$verb" -h
     expect 64 'has no option --nonsense' "$verb" --nonsense
