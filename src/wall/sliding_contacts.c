@@ -506,7 +506,8 @@ int sliding_prepare(struct boundary *boundary, const struct fluid_view *view, bo
 {
     struct sliding *s = boundary->data;
     const size_t n = boundary->n_near;
-    again = again && !s->paper;
+    // in 2-D contacts are cheap enough to find them anew
+    again = again && s->shares.kernel.dim == 3 && !s->paper;
     sliding_place(boundary, again);
     int full;
     do {
