@@ -147,7 +147,7 @@ const char *element_name(enum element_type type)
     return descriptions[type].name;
 }
 
-enum element_type side_type(int dim, const int32_t nodes[SIDE_MAX_NODES])
+enum element_type mesh_side_type(int dim, const int32_t nodes[SIDE_MAX_NODES])
 {
     int n = 0;
     while (n < SIDE_MAX_NODES && nodes[n] >= 0)

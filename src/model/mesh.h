@@ -97,7 +97,7 @@ bool element_is_simplex(enum element_type type);
 bool element_is_quadratic(enum element_type type);
 
 /** The type of a curved side with these nodes (struct facets), in @p dim dimensions. */
-enum element_type side_type(int dim, const int32_t nodes[SIDE_MAX_NODES]);
+enum element_type mesh_side_type(int dim, const int32_t nodes[SIDE_MAX_NODES]);
 
 /** Natural coordinates of a node. */
 void element_node(enum element_type type, int node, double xi[3]);

@@ -305,7 +305,7 @@ int surface_spread(const struct surface *surface, size_t facet, int32_t points[S
         return n;
     }
     const int32_t *side = surface->sides[facet];
-    const enum element_type type = side_type(surface->dim, side);
+    const enum element_type type = mesh_side_type(surface->dim, side);
     const int n = element_nodes(type);
     double at[3] = {0.0, 0.0, 0.0};
     for (int j = 0; j < 4 && nodes[j] >= 0; ++j) {

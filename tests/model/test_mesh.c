@@ -288,7 +288,7 @@ static void test_conversion(void **state)
             for (int i = 0; i < 3; i++)
                 area[i] += normal[i];
             for (int k = 0; skin.sides && k < 4 && skin.nodes[f][k] >= 0; k++) {
-                const int n = element_nodes(side_type(dim, skin.sides[f]));
+                const int n = element_nodes(mesh_side_type(dim, skin.sides[f]));
                 bool found = false;
                 for (int s = 0; s < n; s++)
                     found = found || skin.sides[f][s] == skin.nodes[f][k];

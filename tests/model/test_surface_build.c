@@ -190,7 +190,7 @@ static void test_curved_sides(void **state)
                     place[k] += weights[j] * surface->X[surface->nodes[f][j]][k];
             int32_t spread[SIDE_MAX_NODES];
             const int m = surface_spread(surface, f, spread, weights);
-            assert_int_equal(m, f == 0 ? n : element_nodes(side_type(dim, definition.built.sides[f])));
+            assert_int_equal(m, f == 0 ? n : element_nodes(mesh_side_type(dim, definition.built.sides[f])));
             for (int j = 0; j < m; j++) {
                 sum += weights[j];
                 for (int k = 0; k < 3; k++)

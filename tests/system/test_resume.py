@@ -302,7 +302,7 @@ def test_perturb(skerry, folder):
                    "beam2-.*-characteristic-quad4-eas-shares-yes-fixed-point-iqn-ils-.*",
                    "beam2-.*-characteristic-quad4-eas-shares-yes-sub-cycled-added-mass-.*",
                    "moving2-sliding-particles-round-rotation-.*", "moving2-fixed-particles-edged-translation-.*",
-                   "raft-.*", "burst-.*", "alone2-quad4-full-moving")
+                   "raft-.*", "burst-.*", "alone2-quad4-full-saint-venant-kirchhoff-moving")
     acts = {}
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         jobs = [pool.submit(perturb_all, skerry, folder, number, *deck) for number, deck in enumerate(decks)]
