@@ -300,35 +300,52 @@ static int search_piece(struct sliding *s, const struct fluid_view *view, const 
     return 0;
 }
 
-/** Particles near an analytic surface: all of them are asked, which costs little. Images: that nearest to the
- * centre of a body in the fluid. */
+/** Image of an analytic surface that a particle at @p x is asked about: that nearest to the centre of a body
+ * in the fluid. Returns the distance. */
+static double sliding_shape_distance(const struct sliding *s, const struct sliding_shape *shape,
+                                     const struct model_surface *definition, const double x[3], int shift[3])
+{
+    const bool images = definition->kind != SURFACE_PLANE && !definition->fluid_inside;
+    double r[3], along = 0.0, r2 = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        r[k] = x[k] - shape->centre[k];
+        shift[k] = 0;
+        if (images && s->period[k] > 0.0) {
+            shift[k] = (int)lround(r[k] / s->period[k]);
+            r[k] -= shift[k] * s->period[k];
+        }
+        along += r[k] * shape->axis[k];
+        r2 += r[k] * r[k];
+    }
+    if (definition->kind == SURFACE_PLANE)
+        return along;
+    return sqrt(definition->kind == SURFACE_CYLINDER ? fmax(0.0, r2 - along * along) : r2) -
+           definition->radius;
+}
+
+/** Particles near an analytic surface: all of them are asked, by all threads; those that are near are added
+ * in turn. */
 static int search_shape(struct boundary *boundary, const struct fluid_view *view, size_t surface,
                         double reach, size_t *n)
 {
     struct sliding *s = boundary->data;
     const struct model_surface *definition = boundary->surfaces[surface]->definition;
     const struct sliding_shape *shape = &s->shapes[surface];
-    const struct particles *particles = view->particles;
-    bool images = definition->kind != SURFACE_PLANE && !definition->fluid_inside;
-    for (size_t j = 0; j < particles->n; ++j) {
-        int shift[3] = {0, 0, 0};
-        double r[3], along = 0.0, r2 = 0.0, d;
-        for (int k = 0; k < 3; ++k) {
-            r[k] = particles->x[k][j] - shape->centre[k];
-            if (images && s->period[k] > 0.0) {
-                shift[k] = (int)lround(r[k] / s->period[k]);
-                r[k] -= shift[k] * s->period[k];
-            }
-            along += r[k] * shape->axis[k];
-            r2 += r[k] * r[k];
-        }
-        if (definition->kind == SURFACE_PLANE)
-            d = along;
-        else
-            d = sqrt(definition->kind == SURFACE_CYLINDER ? fmax(0.0, r2 - along * along) : r2) -
-                definition->radius;
-        if (fabs(d) >= reach)
+    const double *const *x = (const double *const *)view->particles->x;
+    const size_t n_particles = view->particles->n;
+    CALL(memory_grow((void **)&s->count, &s->count_capacity, n_particles, sizeof *s->count));
+#pragma omp parallel for schedule(static)
+    for (size_t j = 0; j < n_particles; ++j) {
+        int shift[3];
+        const double at[3] = {x[0][j], x[1][j], x[2][j]};
+        s->count[j] = fabs(sliding_shape_distance(s, shape, definition, at, shift)) < reach;
+    }
+    for (size_t j = 0; j < n_particles; ++j) {
+        if (!s->count[j])
             continue;
+        int shift[3];
+        const double at[3] = {x[0][j], x[1][j], x[2][j]};
+        sliding_shape_distance(s, shape, definition, at, shift);
         for (int k = 0; k < 3; ++k)
             CHECK(shift[k] >= -1 && shift[k] <= 1, STATUS_NUMERICAL,
                   "surface \"%s\" lies more than a period outside the domain", definition->name);
