@@ -18,7 +18,6 @@ struct transport_velocity {
     double *a_background[3]; /**< acceleration by the background pressure, same evaluation */
     double *w[3];            /**< transport minus momentum velocity of this step */
     double *kernel_sum;      /**< sum W of this evaluation over the fluid */
-    double *rigid_sum;       /**< the same with the walls that no solid moves */
     void *places, *records;  /**< workspace of the sweeps */
     size_t places_capacity, records_capacity;
 };
@@ -41,8 +40,7 @@ static int transport_velocity_create(struct fluid *fluid)
     CALL(particles_add_field(block, "BackgroundAcceleration", "m/s^2", 3, FIELD_STATE | FIELD_SORTED,
                              tv->a_background));
     CALL(particles_add_field(block, "TransportShift", "m/s", 3, FIELD_SORTED, tv->w));
-    CALL(particles_add_field(block, "KernelSum", "m^-dim", 1, 0, &tv->kernel_sum));
-    return particles_add_field(block, "RigidKernelSum", "m^-dim", 1, 0, &tv->rigid_sum);
+    return particles_add_field(block, "KernelSum", "m^-dim", 1, 0, &tv->kernel_sum);
 }
 
 static void transport_velocity_destroy(struct fluid *fluid)
@@ -185,39 +183,37 @@ static void wall_sums_add(const struct boundary *b, double *sums)
         sums[b->near[k]] += b->kernel_sum[k];
 }
 
-/** Density and pressure of the particles near walls that solids move: what the other walls give is kept, so
- * that only this is repeated while such a wall moves. */
-static void coupled_pressure(struct fluid *fluid)
+/** Density and pressure of the particles near walls, or only of those near walls that solids move. */
+static void walls_pressure(struct fluid *fluid, bool coupled_only)
 {
     const struct transport_velocity *tv = fluid->data;
-    double *sums = fluid->block->scratch;
-    for (size_t b = 0; b < fluid->n_boundaries; ++b)
-        for (size_t k = 0; k < fluid->boundaries[b]->n_near && fluid->boundaries[b]->coupled; ++k)
-            sums[fluid->boundaries[b]->near[k]] = tv->rigid_sum[fluid->boundaries[b]->near[k]];
-    for (size_t b = 0; b < fluid->n_boundaries; ++b)
-        if (fluid->boundaries[b]->coupled)
-            wall_sums_add(fluid->boundaries[b], sums);
-    for (size_t b = 0; b < fluid->n_boundaries; ++b)
-        for (size_t k = 0; k < fluid->boundaries[b]->n_near && fluid->boundaries[b]->coupled; ++k)
-            state_set(fluid, fluid->boundaries[b]->near[k], sums[fluid->boundaries[b]->near[k]]);
+    double *sums = fluid->block->scratch; /* of particles that are not asked for: anything */
+    for (size_t b = 0; b < fluid->n_boundaries; ++b) {
+        const struct boundary *boundary = fluid->boundaries[b];
+        for (size_t k = 0; k < boundary->n_near && (boundary->coupled || !coupled_only); ++k)
+            sums[boundary->near[k]] = tv->kernel_sum[boundary->near[k]];
+    }
+    for (int coupled = 0; coupled < 2; ++coupled)
+        for (size_t b = 0; b < fluid->n_boundaries; ++b)
+            if (fluid->boundaries[b]->coupled == coupled)
+                wall_sums_add(fluid->boundaries[b], sums);
+    for (size_t b = 0; b < fluid->n_boundaries; ++b) {
+        const struct boundary *boundary = fluid->boundaries[b];
+        for (size_t k = 0; k < boundary->n_near && (boundary->coupled || !coupled_only); ++k)
+            state_set(fluid, boundary->near[k], sums[boundary->near[k]]);
+    }
 }
 
 static void transport_velocity_pressure(struct fluid *fluid, bool coupled_only)
 {
-    struct transport_velocity *tv = fluid->data;
+    const struct transport_velocity *tv = fluid->data;
     const size_t n = fluid->block->n;
     if (!coupled_only) {
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < n; ++i)
-            tv->rigid_sum[i] = tv->kernel_sum[i];
-        for (size_t b = 0; b < fluid->n_boundaries; ++b)
-            if (!fluid->boundaries[b]->coupled)
-                wall_sums_add(fluid->boundaries[b], tv->rigid_sum);
-#pragma omp parallel for schedule(static)
-        for (size_t i = 0; i < n; ++i)
-            state_set(fluid, i, tv->rigid_sum[i]);
+            state_set(fluid, i, tv->kernel_sum[i]);
     }
-    coupled_pressure(fluid);
+    walls_pressure(fluid, coupled_only);
 }
 
 static void transport_velocity_wall_pair(const struct fluid *fluid, size_t i,
