@@ -19,7 +19,7 @@
 #include <zlib.h>
 
 enum {
-    SHARE = 8,          // blocks for each thread in a batch; bounds the memory: 8 x 128 KiB per thread
+    SHARE = 4,          // blocks for each thread in a batch; bounds the memory: 4 x 128 KiB per thread
     SAMPLE = 32 * 1024, // bytes that stand for an array where ways to compress are compared
     OFFSET_WIDTH = 24   // room in the head for an offset that is known after compression
 };
