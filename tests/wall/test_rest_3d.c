@@ -98,6 +98,40 @@ static void cuboid(struct skin *skin, double low, double high, int n)
             }
 }
 
+/** A rectangle at @p level of axis @p axis, along axes @p b and @p c; its normal is e_b x e_c. */
+static void plate(struct skin *skin, int axis, double level, int b, const double along_b[2], int c,
+                  const double along_c[2])
+{
+    int *facet = skin->facets[skin->n_facets++];
+    for (int corner = 0; corner < 4; ++corner) {
+        double x[3];
+        x[axis] = level;
+        x[b] = along_b[corner == 1 || corner == 2];
+        x[c] = along_c[corner >= 2];
+        facet[corner] = node_add(skin, x);
+    }
+}
+
+/** A box of side 10 with a duct of length 5 and side 4 at x = 0, one closed surface: the rim's corners hang
+ * on longer edges. */
+static void ducted(struct skin *skin)
+{
+    static const double all[2] = {0.0, 10.0}, low[2] = {0.0, 3.0}, high[2] = {7.0, 10.0}, mid[2] = {3.0, 7.0},
+                        duct[2] = {-5.0, 0.0};
+    cuboid(skin, 0.0, 10.0, 1);
+    skin->n_facets = 5;
+    memmove(skin->facets, skin->facets + 1, 5 * sizeof *skin->facets); // without the side x = 0
+    plate(skin, 0, 0.0, 2, low, 1, all);
+    plate(skin, 0, 0.0, 2, high, 1, all);
+    plate(skin, 0, 0.0, 2, mid, 1, low);
+    plate(skin, 0, 0.0, 2, mid, 1, high);
+    plate(skin, 0, -5.0, 2, mid, 1, mid);
+    plate(skin, 1, 3.0, 0, duct, 2, mid);
+    plate(skin, 1, 7.0, 2, mid, 0, duct);
+    plate(skin, 2, 3.0, 1, mid, 0, duct);
+    plate(skin, 2, 7.0, 0, duct, 1, mid);
+}
+
 /** The surface as text; @p inward: the fluid is inside. */
 static void skin_print(char *text, const struct skin *skin, bool inward, const char *motion)
 {
@@ -268,6 +302,21 @@ static void test_spheres(void **state)
     assert_true(a.density > 3.0 * inside.density);
 }
 
+/** Where a duct meets a box, facets and edges add up as anywhere else. */
+static void test_rim(void **state)
+{
+    (void)state;
+    struct skin skin;
+    ducted(&skin);
+    const struct rest rest = rest_of(
+        "box with duct", everywhere,
+        "<region><union><box lower='0 0 0' upper='10 10 10'/><box lower='-5 3 3' upper='0 7 7'/></union>"
+        "</region>",
+        &skin, true, "", 0, 100);
+    assert_int_equal(rest.n, 1080);
+    assert_true(rest.density < 1e-3 && rest.transport < 5e-3);
+}
+
 /** A box that turns about an oblique axis, and one that is shaken: nobody leaves it, the density stays. */
 static void test_moving_box(void **state)
 {
@@ -336,9 +385,8 @@ static int quiet(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_box),           cmocka_unit_test(test_hydrostatic),
-        cmocka_unit_test(test_spheres),       cmocka_unit_test(test_moving_box),
-        cmocka_unit_test(test_stirring_cube),
+        cmocka_unit_test(test_box), cmocka_unit_test(test_hydrostatic), cmocka_unit_test(test_spheres),
+        cmocka_unit_test(test_rim), cmocka_unit_test(test_moving_box),  cmocka_unit_test(test_stirring_cube),
     };
     return cmocka_run_group_tests(tests, quiet, NULL);
 }
