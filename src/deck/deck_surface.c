@@ -146,24 +146,6 @@ static void read_part(struct deck *deck, const struct deck_node *node, struct mo
         deck_read_facets(deck, node, &part->facets);
 }
 
-/** Merge the parts; an open surface is allowed (a wall beside which there is no fluid) but often a mistake.
- */
-static void build(struct deck *deck, struct model_surface *surface)
-{
-    size_t open_ends = 0;
-    int status = surface_build(deck->model, surface);
-    if (!status)
-        status = surface_build_open_ends(&surface->built, deck->model->domain.lower,
-                                         deck->model->domain.upper, &open_ends);
-    if (status)
-        deck->status = status;
-    else if (open_ends)
-        deck_warning(deck, surface->where,
-                     "<surface name=\"%s\"> is not closed (%zu open %s): it should continue at "
-                     "least three spacings beyond openings and periodic sides",
-                     surface->name, open_ends, deck->model->dim == 2 ? "ends" : "edges");
-}
-
 static int read_surface(struct deck *deck, const struct deck_node *node, struct model_surface *surface)
 {
     size_t n_parts = 0, n_analytic = 0, before = deck->n_problems;
@@ -195,7 +177,7 @@ static int read_surface(struct deck *deck, const struct deck_node *node, struct 
             usable = usable && (surface->parts[p].mesh < 0 ||
                                 deck->model->meshes[surface->parts[p].mesh].mesh.connectivity);
         if (usable)
-            build(deck, surface);
+            deck->status = surface_build(deck->model, surface);
     }
     return deck->status;
 }

@@ -17,10 +17,4 @@ int surface_build(const struct model *model, struct model_surface *surface);
 /** Free what surface_build made. */
 void surface_build_reset(struct model_surface *surface);
 
-/** Number of open ends inside a box: points (2-D) or edges (3-D, by their middle) that are not walked as
- * often in one direction as in the other. 0: the surface is closed, or it ends on the sides of the box or
- * beyond. */
-int surface_build_open_ends(const struct facets *facets, const double lower[3], const double upper[3],
-                            size_t *n);
-
 #endif

@@ -2,7 +2,7 @@
 #include "run/preview_physics.h"
 
 #include "base/log.h"
-#include "model/surface_build.h"
+#include "model/surface_rims.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -240,8 +240,8 @@ double preview_thickness(const struct facets *facets, double where[3])
 {
     const double lower[3] = {-INFINITY, -INFINITY, -INFINITY}, upper[3] = {INFINITY, INFINITY, INFINITY};
     double least = INFINITY;
-    size_t open_ends;
-    if (facets->dim < 2 || surface_build_open_ends(facets, lower, upper, &open_ends) || open_ends)
+    struct surface_rims rims;
+    if (facets->dim < 2 || surface_rims_find(&facets, 1, 0.0, 0.0, lower, upper, &rims) || rims.n_open)
         return INFINITY;
     const size_t stride = facets->n_facets / RAYS + 1;
     for (size_t f = 0; f < facets->n_facets; f += stride) {

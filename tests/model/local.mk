@@ -27,3 +27,8 @@ check_PROGRAMS += tests/model/test_surface_build
 tests_model_test_surface_build_SOURCES = tests/model/test_surface_build.c
 tests_model_test_surface_build_LDADD = $(test_libs)
 TESTS += tests/model/test_surface_build
+
+check_PROGRAMS += tests/model/test_surface_rims
+tests_model_test_surface_rims_SOURCES = tests/model/test_surface_rims.c
+tests_model_test_surface_rims_LDADD = $(test_libs)
+TESTS += tests/model/test_surface_rims

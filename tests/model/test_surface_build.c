@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "model/surface.h"
 #include "model/surface_build.h"
+#include "model/surface_rims.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,9 +19,10 @@ static const double everywhere_upper[3] = {INFINITY, INFINITY, INFINITY};
 
 static size_t open_ends(const struct facets *facets)
 {
-    size_t n;
-    assert_int_equal(surface_build_open_ends(facets, everywhere_lower, everywhere_upper, &n), 0);
-    return n;
+    struct surface_rims rims;
+    assert_int_equal(surface_rims_find(&facets, 1, 0.0, 0.0, everywhere_lower, everywhere_upper, &rims), 0);
+    assert_true(rims.gap == 0.0);
+    return rims.n_open;
 }
 
 /** A beam clamped to an arc whose ends meet its corners only within 3e-6. */
@@ -73,10 +75,19 @@ static void test_beam_on_cylinder(void **state)
     assert_int_equal(surface_build(&model, &surface), 0);
     assert_int_equal(surface.built.n_points, surface.built.n_facets + 1);
     assert_int_equal(open_ends(&surface.built), 2);
-    size_t n;
-    assert_int_equal(surface_build_open_ends(&surface.built, (double[3]){0.3, 0, 0}, everywhere_upper, &n),
+    const struct facets *const built = &surface.built;
+    struct surface_rims rims;
+    assert_int_equal(surface_rims_find(&built, 1, 0.0, 0.0, (double[3]){0.3, 0, 0}, everywhere_upper, &rims),
                      0);
-    assert_int_equal(n, 0); // both lie outside this box
+    assert_int_equal(rims.n_open, 0); // both lie outside this box
+    const double gap = hypot(points[0][0] - 0.24899, points[0][1] - 0.21);
+    assert_int_equal(
+        surface_rims_find(&built, 1, 0.99 * gap, 2.0 * gap, everywhere_lower, everywhere_upper, &rims), 0);
+    assert_int_equal(rims.n_open, 2);
+    assert_float_equal(rims.gap, gap, 1e-15);
+    assert_int_equal(
+        surface_rims_find(&built, 1, 1.01 * gap, 2.0 * gap, everywhere_lower, everywhere_upper, &rims), 0);
+    assert_int_equal(rims.n_open, 0);
     surface_build_reset(&surface);
     mesh_reset(&mesh.mesh);
 }
