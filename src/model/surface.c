@@ -10,19 +10,43 @@
 /** Places in the field list that surface_show changes. */
 enum { FIELD_VELOCITY = 1, FIELD_ACCELERATION = 2 };
 
-static int surface_motion_create(struct surface_motion *motion, size_t n)
+/** An array with an entry for each point. */
+struct point_array {
+    void **rows;
+    size_t size; /**< of an entry */
+};
+
+enum { POINT_ARRAYS = 19 };
+
+/** Every one of them, so that none is forgotten when they are made, grow or go. */
+static void point_arrays(struct surface *s, struct point_array arrays[POINT_ARRAYS])
 {
-    CHECK_MEMORY(motion->x = memory_create(n, sizeof *motion->x));
-    CHECK_MEMORY(motion->v = memory_create(n, sizeof *motion->v));
-    CHECK_MEMORY(motion->a = memory_create(n, sizeof *motion->a));
-    return 0;
+    struct surface_motion *const motions[] = {&s->level[0], &s->level[1], &s->now, &s->trial};
+    for (size_t k = 0; k < sizeof motions / sizeof *motions; ++k) {
+        *arrays++ = (struct point_array){(void **)&motions[k]->x, sizeof *motions[k]->x};
+        *arrays++ = (struct point_array){(void **)&motions[k]->v, sizeof *motions[k]->v};
+        *arrays++ = (struct point_array){(void **)&motions[k]->a, sizeof *motions[k]->a};
+    }
+    *arrays++ = (struct point_array){(void **)&s->X, sizeof *s->X};
+    *arrays++ = (struct point_array){(void **)&s->mesh, sizeof *s->mesh};
+    *arrays++ = (struct point_array){(void **)&s->mesh_node, sizeof *s->mesh_node};
+    *arrays++ = (struct point_array){(void **)&s->listed, sizeof *s->listed};
+    *arrays++ = (struct point_array){(void **)&s->load, sizeof *s->load};
+    *arrays++ = (struct point_array){(void **)&s->load_previous, sizeof *s->load_previous};
+    *arrays++ = (struct point_array){(void **)&s->impulse, sizeof *s->impulse};
 }
 
-static void surface_motion_reset(struct surface_motion *motion)
+/** Room for @p more points behind those that there are. */
+static int points_grow(struct surface *s, size_t more)
 {
-    memory_free(motion->x);
-    memory_free(motion->v);
-    memory_free(motion->a);
+    struct point_array arrays[POINT_ARRAYS];
+    point_arrays(s, arrays);
+    for (size_t k = 0; k < POINT_ARRAYS; ++k) {
+        size_t capacity = s->n_points;
+        CALL(memory_grow(arrays[k].rows, &capacity, s->n_points + more, arrays[k].size));
+    }
+    s->n_points += more;
+    return 0;
 }
 
 static void surface_motion_copy(struct surface_motion *to, const struct surface_motion *from, size_t n)
@@ -52,23 +76,11 @@ static void fill_definition(struct surface *s)
         s->coupled |= s->mesh[i] >= 0;
 }
 
-static int allocate(struct surface *s)
+static int facets_create(struct surface *s)
 {
-    size_t n = s->n_points;
-    CHECK_MEMORY(s->X = memory_create(n, sizeof *s->X));
     CHECK_MEMORY(s->nodes = memory_create(s->n_facets, sizeof *s->nodes));
     if (s->definition->built.sides)
         CHECK_MEMORY(s->sides = memory_create(s->n_facets, sizeof *s->sides));
-    CHECK_MEMORY(s->mesh = memory_create(n, sizeof *s->mesh));
-    CHECK_MEMORY(s->mesh_node = memory_create(n, sizeof *s->mesh_node));
-    CALL(surface_motion_create(&s->level[0], n));
-    CALL(surface_motion_create(&s->level[1], n));
-    CALL(surface_motion_create(&s->now, n));
-    CALL(surface_motion_create(&s->trial, n));
-    CHECK_MEMORY(s->listed = memory_create(n, sizeof *s->listed));
-    CHECK_MEMORY(s->load = memory_create(n, sizeof *s->load));
-    CHECK_MEMORY(s->load_previous = memory_create(n, sizeof *s->load_previous));
-    CHECK_MEMORY(s->impulse = memory_create(n, sizeof *s->impulse));
     return 0;
 }
 
@@ -116,7 +128,7 @@ static int fill_displacement(const void *owner, const struct field *field, void 
     return 0;
 }
 
-static int register_fields(struct surface *s)
+static void fields_fill(struct surface *s)
 {
     /* motion is prescribed, or follows from the solids' state; lists are made for a place of the past */
     const unsigned listed = s->moving ? FIELD_STATE : 0, impulse = s->sub_cycled ? FIELD_STATE : 0;
@@ -130,11 +142,26 @@ static int register_fields(struct surface *s)
         {"ListedPlace", "m", FIELD_DOUBLE, 3, listed, {s->listed}, NULL},
         {"Impulse", "N s", FIELD_DOUBLE, 3, impulse, {s->impulse}, NULL},
     };
+    _Static_assert(sizeof list == sizeof s->field_list, "every field has its place");
     memcpy(s->field_list, list, sizeof list);
+}
+
+static int fields_register(struct surface *s)
+{
     char *name = memory_print("surface-%s", s->definition->name);
     CHECK_MEMORY(name);
-    s->fields = (struct field_group){name, s, &s->n_points, s->field_list, sizeof list / sizeof *list};
+    s->fields = (struct field_group){name, s, &s->n_points, s->field_list,
+                                     sizeof s->field_list / sizeof *s->field_list};
+    fields_fill(s);
     return 0;
+}
+
+/** Every point stands where level 1 has it. */
+static void levels_start(struct surface *s)
+{
+    surface_motion_copy(&s->level[0], &s->level[1], s->n_points);
+    surface_motion_copy(&s->now, &s->level[1], s->n_points);
+    surface_motion_copy(&s->trial, &s->level[1], s->n_points);
 }
 
 int surface_create(struct surface **surface, const struct model *model, int index, double t)
@@ -146,15 +173,16 @@ int surface_create(struct surface **surface, const struct model *model, int inde
     bool facets = d->kind == SURFACE_FACETS;
     s->definition = d;
     s->dim = model->dim;
-    s->n_points = facets ? d->built.n_points : 1;
     s->n_facets = facets ? d->built.n_facets : 0;
-    int status = allocate(s);
+    int status = points_grow(s, facets ? d->built.n_points : 1);
+    if (!status)
+        status = facets_create(s);
     if (!status) {
         fill_definition(s);
         s->moving = s->coupled || motion_moves(&d->motion);
         s->sub_cycled = s->coupled && model->coupling.solid_every > 0;
         s->shown = &s->level[1];
-        status = register_fields(s);
+        status = fields_register(s);
     }
     if (status) {
         surface_destroy(s);
@@ -162,30 +190,40 @@ int surface_create(struct surface **surface, const struct model *model, int inde
     }
     place_mesh_points(s, model, &s->level[1]);
     prescribe(s, t, &s->level[1]);
-    surface_motion_copy(&s->level[0], &s->level[1], s->n_points);
-    surface_motion_copy(&s->now, &s->level[1], s->n_points);
-    surface_motion_copy(&s->trial, &s->level[1], s->n_points);
+    levels_start(s);
     *surface = s;
+    return 0;
+}
+
+int surface_add_nodes(struct surface *surface, const struct model *model, int mesh, size_t n,
+                      const int32_t *nodes)
+{
+    const size_t first = surface->n_points;
+    CALL(points_grow(surface, n));
+    for (size_t k = 0; k < n; ++k) {
+        memcpy(surface->X[first + k], model->meshes[mesh].mesh.X[nodes[k]], sizeof *surface->X);
+        surface->mesh[first + k] = mesh;
+        surface->mesh_node[first + k] = nodes[k];
+    }
+    place_mesh_points(surface, model, &surface->level[1]);
+    levels_start(surface);
+    fields_fill(surface);
     return 0;
 }
 
 void surface_destroy(struct surface *surface)
 {
+    struct point_array arrays[POINT_ARRAYS];
     if (!surface)
         return;
-    memory_free(surface->X);
+    point_arrays(surface, arrays);
+    for (size_t k = 0; k < POINT_ARRAYS; ++k) {
+        void *rows;
+        memcpy(&rows, arrays[k].rows, sizeof rows);
+        memory_free(rows);
+    }
     memory_free(surface->nodes);
     memory_free(surface->sides);
-    memory_free(surface->mesh);
-    memory_free(surface->mesh_node);
-    surface_motion_reset(&surface->level[0]);
-    surface_motion_reset(&surface->level[1]);
-    surface_motion_reset(&surface->now);
-    surface_motion_reset(&surface->trial);
-    memory_free(surface->listed);
-    memory_free(surface->load);
-    memory_free(surface->load_previous);
-    memory_free(surface->impulse);
     memory_free(surface->added_mass);
     memory_free((char *)surface->fields.name);
     memory_free(surface);
@@ -346,12 +384,12 @@ void surface_added_mass_apply(const struct surface *surface, const double (*acce
     for (size_t c = 0; c < surface->n_added_mass; ++c) {
         const struct added_mass_contact *contact = &surface->added_mass[c];
         double a[3] = {0.0, 0.0, 0.0}, f[3];
-        for (int j = 0; j < SIDE_MAX_NODES && contact->columns[j] >= 0; ++j)
+        for (int j = 0; j < ELEMENT_MAX_NODES && contact->columns[j] >= 0; ++j)
             for (int k = 0; k < 3; ++k)
                 a[k] += contact->column_weights[j] * acceleration[contact->columns[j]][k];
         for (int k = 0; k < 3; ++k)
             f[k] = contact->tensor[k][0] * a[0] + contact->tensor[k][1] * a[1] + contact->tensor[k][2] * a[2];
-        for (int j = 0; j < SIDE_MAX_NODES && contact->rows[j] >= 0; ++j)
+        for (int j = 0; j < ELEMENT_MAX_NODES && contact->rows[j] >= 0; ++j)
             for (int k = 0; k < 3; ++k)
                 result[contact->rows[j]][k] += contact->row_weights[j] * f[k];
     }

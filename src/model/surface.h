@@ -17,19 +17,20 @@ struct surface_motion {
 };
 
 /** Derivative of the load by the surface's acceleration (numerics.md section 4): per contact a tensor whose
- * rows are spread by the shape functions of the facet that takes the load and whose columns by those of the
- * facet that gave the acceleration. f += -T a is the fluid's reaction: surface_added_mass_apply returns +T a.
- */
+ * rows are spread by the shape functions of what takes the load and whose columns by those of what gave the
+ * acceleration (facets; elements around wall particles). f += -T a is the fluid's reaction:
+ * surface_added_mass_apply returns +T a. */
 struct added_mass_contact {
-    int32_t rows[SIDE_MAX_NODES], columns[SIDE_MAX_NODES]; /**< point numbers, -1 unused */
-    double row_weights[SIDE_MAX_NODES], column_weights[SIDE_MAX_NODES];
+    int32_t rows[ELEMENT_MAX_NODES], columns[ELEMENT_MAX_NODES]; /**< point numbers, -1 unused */
+    double row_weights[ELEMENT_MAX_NODES], column_weights[ELEMENT_MAX_NODES];
     double tensor[3][3]; /**< kg */
 };
 
 /** The only thing fluid and solid share: points, optionally facets or an analytic shape, their motion at the
- * start and end of the step, and the loads on them. An analytic surface has one point, its centre, with the
- * load's force; the moment about the centre is in @c moment. Points are interleaved rows of 3; loads are in
- * double; z = 0 in 2-D. */
+ * start and end of the step, and the loads on them. First come the points of the facets, then (where walls
+ * are made of material points) further nodes of meshes, inside the body. An analytic surface has one point,
+ * its centre, with the load's force; the moment about the centre is in @c moment. Points are interleaved rows
+ * of 3; loads are in double; z = 0 in 2-D. */
 struct surface {
     const struct model_surface *definition;
     int dim;
@@ -49,7 +50,8 @@ struct surface {
     const struct surface_motion *shown; /**< what output shows: level 1, or now (surface_show) */
     double (*listed)[3]; /**< places when the lists of near particles were made (surface_mark) */
     double (*load)[3], (*load_previous)[3], (*impulse)[3]; /**< N, N, N s (2-D: per metre of depth) */
-    double moment[3]; /**< analytic surfaces: of the load about the point, N m */
+    double moment[3]; /**< of loads about the points that take them (analytic surfaces, particles fixed behind
+                         facets), N m */
     size_t n_added_mass, added_mass_capacity;
     struct added_mass_contact *added_mass;
     struct field_group fields; /**< named "surface-NAME" */
@@ -60,6 +62,11 @@ struct surface {
  * the mesh's initial displacement, at rest unless the mesh says otherwise). Free with surface_destroy. */
 int surface_create(struct surface **surface, const struct model *model, int index, double t);
 void surface_destroy(struct surface *surface);
+
+/** Let @p n further points follow @p nodes of mesh @p mesh of the model, none of which any point follows yet.
+ * Before the first step, and before solids are attached. Returns 0 or STATUS_MEMORY. */
+int surface_add_nodes(struct surface *surface, const struct model *model, int mesh, size_t n,
+                      const int32_t *nodes);
 
 /** Level 0 := level 1, level 1 gets time @p t1 with prescribed points evaluated there (mesh points keep level
  * 1 until the solid predicts); impulse := 0. */

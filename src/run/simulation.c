@@ -82,6 +82,12 @@ static int solids_create(struct simulation *s)
     CHECK_MEMORY(s->solids);
     for (; s->n_solids < s->model->n_meshes; ++s->n_solids)
         CALL(solid_create(&s->solids[s->n_solids], s->model, (int)s->n_solids));
+    return 0;
+}
+
+/** After the walls have let surfaces follow all nodes that they need. */
+static int solids_attach(struct simulation *s)
+{
     for (size_t k = 0; k < s->n_solids; ++k)
         for (size_t p = 0; p < s->n_surfaces; ++p)
             CALL(solid_attach(s->solids[k], s->surfaces[p]));
@@ -108,6 +114,7 @@ static int parts_create(struct simulation *s)
                                           .timer = &s->timer};
         CALL(fluid_create(&s->fluid, s->model, &parts));
     }
+    CALL(solids_attach(s));
     const struct coupling_parts parts = {s->fluid,    s->solids,     s->n_solids,
                                          s->surfaces, s->n_surfaces, &s->timer};
     return coupling_create(&s->coupling, s->model, &parts);

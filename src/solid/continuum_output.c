@@ -4,14 +4,10 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "model/mesh_search.h"
 
 #include <math.h>
 #include <string.h>
-
-/** How far outside its natural coordinates a point may lie and still count as inside an element. */
-static const double locate_tolerance = 1e-6;
-
-enum { LOCATE_ITERATIONS = 20 };
 
 /** Cell values on demand: average Cauchy stress, von Mises stress of that average, energy density. */
 static int fill_cells(const void *owner, const struct field *field, void *destination)
@@ -129,101 +125,18 @@ void continuum_energies(const struct solid *solid, struct solid_energies *energi
     }
 }
 
-/** How far @p xi lies outside the element (0: inside). */
-static double outside(enum element_type type, const double xi[3])
-{
-    const int dim = element_dim(type);
-    double excess = 0, sum = 0;
-    for (int d = 0; d < dim; d++) {
-        const bool simplex = element_is_simplex(type);
-        excess = fmax(excess, simplex ? -xi[d] : fabs(xi[d]) - 1);
-        sum += simplex ? xi[d] : 0;
-    }
-    return fmax(excess, sum - 1);
-}
-
-/** Solve the dim x dim system J step = r by Cramer's rule; false when it is singular. */
-static bool solve_small(int dim, double J[3][3], const double r[3], double step[3])
-{
-    if (dim == 2)
-        J[2][2] = 1;
-    double inverse[3][3], det = 0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            const int p = (j + 1) % 3, q = (j + 2) % 3, s = (i + 1) % 3, u = (i + 2) % 3;
-            inverse[i][j] = J[p][s] * J[q][u] - J[p][u] * J[q][s];
-        }
-    for (int j = 0; j < 3; j++)
-        det += J[0][j] * inverse[j][0];
-    if (!(fabs(det) > 0))
-        return false;
-    for (int i = 0; i < 3; i++)
-        step[i] = (inverse[i][0] * r[0] + inverse[i][1] * r[1] + inverse[i][2] * r[2]) / det;
-    return true;
-}
-
-/** Natural coordinates of @p X in an element by Newton's method; false when it does not converge. */
-static bool invert_map(const struct continuum *continuum, size_t element, const double X[3], double xi[3])
-{
-    const struct mesh *mesh = continuum->mesh;
-    const int32_t *nodes = &mesh->connectivity[element * (size_t)mesh->nodes_per_element];
-    xi[0] = xi[1] = xi[2] = element_is_simplex(mesh->type) ? 0.25 : 0;
-    for (int iteration = 0; iteration < LOCATE_ITERATIONS; iteration++) {
-        double N[ELEMENT_MAX_NODES], dN[ELEMENT_MAX_NODES][3], J[3][3] = {{0}}, r[3] = {0}, step[3];
-        element_shape(mesh->type, xi, N, dN);
-        for (int i = 0; i < continuum->dim; i++) {
-            r[i] = X[i];
-            for (int a = 0; a < mesh->nodes_per_element; a++) {
-                r[i] -= N[a] * mesh->X[nodes[a]][i];
-                for (int A = 0; A < continuum->dim; A++)
-                    J[i][A] += mesh->X[nodes[a]][i] * dN[a][A];
-            }
-        }
-        if (!solve_small(continuum->dim, J, r, step))
-            return false;
-        double length = 0;
-        for (int i = 0; i < continuum->dim; i++) {
-            xi[i] += step[i];
-            length = fmax(length, fabs(step[i]));
-        }
-        if (length < 1e-13)
-            return true;
-        if (!(length < 1e6))
-            return false;
-    }
-    return outside(mesh->type, xi) <= locate_tolerance;
-}
-
 int continuum_locate(const struct solid *solid, const double X[3], struct solid_place *place)
 {
     const struct continuum *continuum = solid->data;
-    const struct mesh *mesh = continuum->mesh;
-    double best = locate_tolerance;
-    int status = STATUS_DECK;
-    for (size_t e = 0; e < mesh->n_elements; e++) {
-        const int32_t *nodes = &mesh->connectivity[e * (size_t)mesh->nodes_per_element];
-        bool near = true;
-        for (int i = 0; i < continuum->dim; i++) {
-            double low = INFINITY, high = -INFINITY;
-            for (int a = 0; a < mesh->nodes_per_element; a++) {
-                low = fmin(low, mesh->X[nodes[a]][i]);
-                high = fmax(high, mesh->X[nodes[a]][i]);
-            }
-            /* a curved side may bulge beyond its nodes, at most by as much again */
-            const double margin = (element_is_quadratic(mesh->type) ? 1 : locate_tolerance) * (high - low);
-            near = near && X[i] >= low - margin && X[i] <= high + margin;
-        }
-        double xi[3];
-        if (!near || !invert_map(continuum, e, X, xi) || outside(mesh->type, xi) > best)
-            continue;
-        status = 0;
-        best = outside(mesh->type, xi);
-        place->element = (int)e;
-        memcpy(place->xi, xi, sizeof xi);
-        if (best <= 0)
-            break;
-    }
-    return status;
+    struct mesh_search search;
+    size_t element;
+    CALL(mesh_search_init(&search, continuum->mesh, 0.0));
+    const bool found = mesh_search_find(&search, X, &element, place->xi);
+    mesh_search_reset(&search);
+    if (!found)
+        return STATUS_DECK;
+    place->element = (int)element;
+    return 0;
 }
 
 void continuum_evaluate(const struct solid *solid, const struct solid_place *place, double d[3], double v[3],

@@ -2,13 +2,16 @@
 /* Walls of boundary particles fixed to the wall: Adami, Hu and Adams (2012), as Fuchs et al. (2021),
  * section 3.1.6. Pressure and velocity are extrapolated from the fluid by a local force balance. Wall
  * particles sit on the fluid's lattice behind the surfaces (so that flat walls are in line with the fluid),
- * or where the deck's region puts them, and move with the prescribed motion of their surface. Walls that a
- * solid moves are refused: material points of a deforming wall leave holes (section 4.1.4). */
+ * or where the deck's region puts them, and move with the prescribed motion of their surface. Behind the skin
+ * of a mesh they are material points of the mesh: where it is stretched they are drawn apart, and leave holes
+ * in the end (section 4.1.4). */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "sph/boundary.h"
+#include "wall/material_points.h"
 #include "wall/wall_list.h"
+#include "wall/wall_places.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,10 +33,11 @@ struct fixed_part {
 
 struct fixed_particles {
     size_t n;
-    char *group_name;           /**< "wall-NAME" */
-    double (*X)[3];             /**< reference places */
-    int32_t *surface;           /**< per particle: which of boundary->surfaces, -1: the wall's own motion */
-    int32_t *load_point;        /**< per particle: point of the surface that takes its load, -1: none */
+    char *group_name; /**< "wall-NAME" */
+    struct wall_places places;
+    struct material_points material; /**< the particles that meshes move */
+    size_t *tensor;      /**< per material point: its place among the added masses of its surface */
+    int32_t *load_point; /**< per particle: point of the surface that takes its load, -1: none, or several */
     double *x[3], *v[3], *a[3]; /**< of the wall */
     double *p, *rho, *u[3];     /**< extrapolated; u for the viscous term */
     double *listed[3];          /**< places when the lists were made */
@@ -58,94 +62,83 @@ struct fixed_particles {
     struct fixed_part *parts; /**< one per thread */
 };
 
-static int fixed_particles_check(const struct model *model, const struct model_wall *wall)
+/** A mesh that is filled with particles twice would weigh twice. */
+static int check_alone(const struct model *model, const struct model_wall *wall, int mesh)
 {
-    for (size_t s = 0; s < wall->n_surfaces; ++s) {
-        const struct model_surface *surface = &model->surfaces[wall->surfaces[s]];
-        for (size_t k = 0; k < surface->n_parts; ++k)
-            CHECK(surface->kind != SURFACE_FACETS || surface->parts[k].mesh < 0, STATUS_DECK,
-                  "%s:%d:%d: error: <wall name=\"%s\">: surface \"%s\" is moved by mesh \"%s\"; boundary "
-                  "particles "
-                  "stay in line only on walls that do not deform: use treatment=\"sliding-particles\"",
-                  model->path, wall->where.line, wall->where.column, wall->name, surface->name,
-                  model->meshes[surface->parts[k].mesh].name);
+    for (size_t w = 0; w < model->n_walls; ++w)
+        for (size_t s = 0; s < model->walls[w].n_surfaces; ++s) {
+            const struct model_wall *other = &model->walls[w];
+            const struct model_surface *surface = &model->surfaces[other->surfaces[s]];
+            CHECK(other == wall || !wall_places_has_mesh(surface, mesh), STATUS_DECK,
+                  "%s:%d:%d: error: <wall name=\"%s\">: its particles fill mesh \"%s\", which wall \"%s\" "
+                  "has a "
+                  "surface of, too; name all surfaces of a mesh in one wall",
+                  model->path, wall->where.line, wall->where.column, wall->name, model->meshes[mesh].name,
+                  other->name);
+        }
+    return 0;
+}
+
+static bool wall_has_mesh(const struct model *model, const struct model_wall *wall, int mesh)
+{
+    for (size_t s = 0; s < wall->n_surfaces; ++s)
+        if (wall_places_has_mesh(&model->surfaces[wall->surfaces[s]], mesh))
+            return true;
+    return false;
+}
+
+/** Whether every mesh of the wall has particles. */
+static int check_meshes(const struct model *model, const struct model_wall *wall,
+                        const struct wall_places *places)
+{
+    for (size_t m = 0; m < model->n_meshes; ++m) {
+        bool filled = !wall_has_mesh(model, wall, (int)m);
+        for (size_t k = 0; k < places->n && !filled; ++k)
+            filled = places->mesh[k] == (int32_t)m;
+        CHECK(filled, STATUS_DECK,
+              "%s:%d:%d: error: <wall name=\"%s\">: no point of the fluid's lattice (spacing %g m) lies "
+              "inside "
+              "mesh \"%s\"; take a smaller spacing, or treatment=\"sliding-particles\"",
+              model->path, wall->where.line, wall->where.column, wall->name, model->fluid.spacing,
+              model->meshes[m].name);
     }
     return 0;
 }
 
-/** Signed distance to a surface in the reference configuration, positive in the fluid. */
-static double surface_distance(const struct model_surface *surface, int dim, const double x[3])
+static int fixed_particles_check(const struct model *model, const struct model_wall *wall)
 {
-    double d[3], along = 0.0, r2 = 0.0;
-    if (surface->kind == SURFACE_FACETS)
-        return facets_distance(&surface->built, x);
-    for (int k = 0; k < 3; ++k) {
-        d[k] = k < dim ? x[k] - surface->centre[k] : 0.0;
-        along += d[k] * surface->axis[k];
-        r2 += d[k] * d[k];
-    }
-    if (surface->kind == SURFACE_PLANE)
-        return along;
-    double r = sqrt(fmax(0.0, surface->kind == SURFACE_CYLINDER && dim == 3 ? r2 - along * along : r2));
-    return surface->fluid_inside ? surface->radius - r : r - surface->radius;
+    bool any = false;
+    for (size_t m = 0; m < model->n_meshes; ++m)
+        if (wall_has_mesh(model, wall, (int)m)) {
+            any = true;
+            CALL(check_alone(model, wall, (int)m));
+        }
+    if (!any)
+        return 0;
+    struct wall_places places;
+    int status = wall_places_init(&places, model, wall, model->fluid.spacing, kernel_of_model(model).support);
+    if (!status)
+        status = check_meshes(model, wall, &places);
+    wall_places_reset(&places);
+    return status;
 }
 
-/** The point of a surface nearest to @p X takes the load of the wall particle there. */
+/** The point of a surface nearest to @p X takes the load of the wall particle there, unless a mesh moves it.
+ */
 static int32_t nearest_point(const struct surface *surface, const double X[3])
 {
-    int32_t best = 0;
+    int32_t best = -1;
     double least = INFINITY;
     for (size_t k = 0; k < surface->n_points; ++k) {
         double d2 = 0.0;
         for (int d = 0; d < 3; ++d)
             d2 += (surface->X[k][d] - X[d]) * (surface->X[k][d] - X[d]);
-        if (d2 < least) {
+        if (d2 < least && surface->mesh[k] < 0) {
             least = d2;
             best = (int32_t)k;
         }
     }
     return best;
-}
-
-/** Lattice points of the fluid that lie behind the surfaces, up to the support deep. */
-static int places_behind(const struct boundary *boundary, const struct model *model,
-                         const struct fluid_view *view, double (**places)[3], int32_t **surfaces, size_t *n)
-{
-    const struct model_region *region = &model->fluid.regions[0];
-    const double dx = view->spacing;
-    double lower[3] = {0}, upper[3];
-    shape_bounds(&region->shape, model->dim, lower, upper);
-    const double *origin = region->has_origin ? region->origin
-                           : region->n_points ? model->domain.lower
-                                              : lower;
-    struct shape domain = {.kind = SHAPE_BOX};
-    memcpy(domain.a, model->domain.lower, sizeof domain.a);
-    memcpy(domain.b, model->domain.upper, sizeof domain.b);
-    double(*all)[3];
-    size_t n_all, kept = 0;
-    CALL(geometry_fill(&domain, model->dim, dx, origin, 0.0, &all, &n_all));
-    int32_t *which = memory_create(n_all, sizeof *which);
-    if (!which) {
-        memory_free(all);
-        return STATUS_MEMORY;
-    }
-    for (size_t i = 0; i < n_all; ++i) {
-        double deepest = INFINITY;
-        for (size_t s = 0; s < boundary->n_surfaces; ++s) {
-            double d = surface_distance(boundary->surfaces[s]->definition, model->dim, all[i]);
-            if (d < deepest) {
-                deepest = d;
-                which[kept] = (int32_t)s;
-            }
-        }
-        if (deepest > 0.02 * dx || deepest < -view->kernel.support)
-            continue;
-        memmove(all[kept++], all[i], sizeof *all);
-    }
-    *places = all;
-    *surfaces = which;
-    *n = kept;
-    return 0;
 }
 
 static int arrays_create(struct fixed_particles *f)
@@ -165,46 +158,49 @@ static int arrays_create(struct fixed_particles *f)
     return f->load_point && f->order && f->back_start ? 0 : STATUS_MEMORY;
 }
 
-static int places_create(struct boundary *boundary, const struct model *model, const struct fluid_view *view,
-                         struct fixed_particles *f)
+static void particle_put(struct fixed_particles *f, size_t k, const double x[3], const double v[3],
+                         const double a[3])
 {
-    if (!boundary->wall->has_region)
-        return places_behind(boundary, model, view, &f->X, &f->surface, &f->n);
-    const struct model_region *region = &boundary->wall->region;
-    double lower[3] = {0}, upper[3];
-    if (region->n_points) {
-        f->n = region->n_points;
-        f->X = memory_create(f->n, sizeof *f->X);
-        CHECK_MEMORY(f->X);
-        memcpy(f->X, region->points, f->n * sizeof *f->X);
-    } else {
-        shape_bounds(&region->shape, model->dim, lower, upper);
-        CALL(geometry_fill(&region->shape, model->dim, view->spacing,
-                           region->has_origin ? region->origin : lower, 0.0, &f->X, &f->n));
+    for (int d = 0; d < 3; ++d) {
+        f->x[d][k] = x[d] + f->wrap[d][k];
+        f->v[d][k] = v[d];
+        f->a[d][k] = a[d];
     }
-    f->surface = memory_create(f->n, sizeof *f->surface);
-    CHECK_MEMORY(f->surface);
-    for (size_t k = 0; k < f->n; ++k)
-        f->surface[k] = -1;
-    return 0;
 }
 
-/** Place, velocity and acceleration of every wall particle at time @p t. */
-static void particles_move(struct boundary *boundary, double t)
+/** Place, velocity and acceleration of the particles whose motion is prescribed, at time @p t. */
+static void prescribed_move(struct boundary *boundary, double t)
 {
     struct fixed_particles *f = boundary->data;
+    const struct wall_places *places = &f->places;
     for (size_t k = 0; k < f->n; ++k) {
         double x[3], v[3], a[3];
-        const struct motion *motion = f->surface[k] < 0
+        if (places->mesh[k] >= 0)
+            continue;
+        const struct motion *motion = places->surface[k] < 0
                                           ? &boundary->wall->motion
-                                          : &boundary->surfaces[f->surface[k]]->definition->motion;
-        motion_at(motion, f->X[k], t, x, v, a);
-        for (int d = 0; d < 3; ++d) {
-            f->x[d][k] = x[d] + f->wrap[d][k];
-            f->v[d][k] = v[d];
-            f->a[d][k] = a[d];
-        }
+                                          : &boundary->surfaces[places->surface[k]]->definition->motion;
+        motion_at(motion, places->X[k], t, x, v, a);
+        particle_put(f, k, x, v, a);
     }
+}
+
+/** The same of those that meshes move, as the surfaces are now. */
+static void material_move(struct boundary *boundary)
+{
+    struct fixed_particles *f = boundary->data;
+#pragma omp parallel for schedule(static)
+    for (size_t k = 0; k < f->material.n; ++k) {
+        double x[3], v[3], a[3];
+        material_points_motion(&f->material, boundary, k, x, v, a);
+        particle_put(f, f->material.particle[k], x, v, a);
+    }
+}
+
+static void particles_move(struct boundary *boundary, double t)
+{
+    prescribed_move(boundary, t);
+    material_move(boundary);
 }
 
 /** Particles of a moving wall that left through a periodic side come in through the other. Those on the side
@@ -258,15 +254,21 @@ static int fixed_particles_create(struct boundary *boundary, const struct model 
     struct fixed_particles *f = memory_create(1, sizeof *f);
     CHECK_MEMORY(f);
     boundary->data = f;
-    CALL(places_create(boundary, model, view, f));
     const struct model_wall *wall = boundary->wall;
+    CALL(wall_places_init(&f->places, model, wall, view->spacing, view->kernel.support));
+    f->n = f->places.n;
     CHECK(f->n, STATUS_DECK,
           "%s:%d:%d: error: <wall name=\"%s\">: no wall particle lies inside the domain; it must reach "
           "%g m behind the wall",
           model->path, wall->where.line, wall->where.column, wall->name, view->kernel.support);
     CALL(arrays_create(f));
-    for (size_t k = 0; k < f->n; ++k)
-        f->load_point[k] = f->surface[k] < 0 ? -1 : nearest_point(boundary->surfaces[f->surface[k]], f->X[k]);
+    CALL(material_points_init(&f->material, boundary, model, &f->places));
+    CHECK_MEMORY(f->tensor = memory_create(f->material.n, sizeof *f->tensor));
+    for (size_t k = 0; k < f->n; ++k) {
+        const int32_t surface = f->places.surface[k];
+        const bool none = surface < 0 || f->places.mesh[k] >= 0;
+        f->load_point[k] = none ? -1 : nearest_point(boundary->surfaces[surface], f->places.X[k]);
+    }
     for (int image = 0; image < 27; ++image)
         for (int d = 0, rest = image; d < 3; ++d, rest /= 3)
             f->shift[image][d] = d < model->dim && model->domain.periodic[d]
@@ -293,9 +295,11 @@ static void fixed_particles_destroy(struct boundary *boundary)
         for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
             memory_free(arrays[k]);
     }
-    void *const others[] = {f->group_name, f->X,         f->surface, f->load_point, f->order,
-                            f->p,          f->rho,       f->pairs,   f->start,      f->back_start,
-                            f->back,       f->back_near, f->marked,  f->candidate,  f->count};
+    void *const others[] = {f->group_name, f->load_point, f->order,      f->p,     f->rho,
+                            f->pairs,      f->start,      f->back_start, f->back,  f->back_near,
+                            f->marked,     f->candidate,  f->count,      f->tensor};
+    wall_places_reset(&f->places);
+    material_points_reset(&f->material);
     for (size_t k = 0; k < f->n_parts; ++k)
         memory_free(f->parts[k].pairs);
     memory_free(f->parts);
@@ -470,11 +474,12 @@ static inline double pair_vector(const struct fixed_particles *f, const struct p
 
 static int fixed_particles_prepare(struct boundary *boundary, const struct fluid_view *view, bool again)
 {
-    (void)again;
     const struct fixed_particles *f = boundary->data;
     if (boundary->moving) {
         double moved2 = 0.0;
-        particles_move(boundary, view->t);
+        if (!again)
+            prescribed_move(boundary, view->t);
+        material_move(boundary);
         for (size_t k = 0; k < f->n; ++k) {
             double d2 = 0.0;
             for (int d = 0; d < 3; ++d)
@@ -569,6 +574,23 @@ static void fixed_particles_react(struct boundary *boundary, size_t near,
             f->pair_force[d][f->start[near] + (uint32_t)neighbours->source[k]] = -force[d][k];
 }
 
+/** The load of a particle that no mesh moves: on the nearest point of its surface, with its moment about that
+ * point. */
+static void prescribed_load(struct boundary *boundary, size_t wall)
+{
+    const struct fixed_particles *f = boundary->data;
+    struct surface *surface = boundary->surfaces[f->places.surface[wall]];
+    const int32_t point = f->load_point[wall];
+    double arm[3];
+    for (int d = 0; d < 3; ++d)
+        arm[d] = f->x[d][wall] - f->wrap[d][wall] - surface->now.x[point][d];
+    for (int d = 0; d < 3; ++d) {
+        surface->load[point][d] += f->force[d][wall];
+        surface->moment[d] +=
+            arm[(d + 1) % 3] * f->force[(d + 2) % 3][wall] - arm[(d + 2) % 3] * f->force[(d + 1) % 3][wall];
+    }
+}
+
 static void fixed_particles_load(struct boundary *boundary, const struct fluid_view *view)
 {
     struct fixed_particles *f = boundary->data;
@@ -581,22 +603,64 @@ static void fixed_particles_load(struct boundary *boundary, const struct fluid_v
                 total += f->pair_force[d][f->back[c]];
             f->force[d][wall] = total;
         }
-    for (size_t wall = 0; wall < f->n; ++wall) {
-        if (f->load_point[wall] < 0)
-            continue;
+    for (size_t k = 0; k < f->material.n; ++k) {
+        const size_t wall = f->material.particle[k];
         const double total[3] = {f->force[0][wall], f->force[1][wall], f->force[2][wall]};
-        struct surface *surface = boundary->surfaces[f->surface[wall]];
-        const double *centre = surface->now.x[0];
-        double arm[3];
-        for (int d = 0; d < 3; ++d)
-            arm[d] = f->x[d][wall] - f->wrap[d][wall] - centre[d];
-        for (int d = 0; d < 3; ++d) {
-            surface->load[f->load_point[wall]][d] += total[d];
-            if (!surface->n_facets)
-                surface->moment[d] +=
-                    arm[(d + 1) % 3] * total[(d + 2) % 3] - arm[(d + 2) % 3] * total[(d + 1) % 3];
+        material_points_load(&f->material, boundary, k, total);
+    }
+    for (size_t wall = 0; wall < f->n; ++wall)
+        if (f->load_point[wall] >= 0)
+            prescribed_load(boundary, wall);
+}
+
+/** T of wall particle @p wall: minus the derivative of its load by its acceleration a. The load is
+ * sum_i (V_i^2 + V^2) W' e_i (rho p_i + rho_i p) / (rho + rho_i), e_i from it to fluid particle i, and a is
+ * in p = ... - a . sum_j rho_j (r - r_j) W / sum_j W; that rho follows p is left out. */
+static void tensor_fill(const struct boundary *boundary, const struct fluid_view *view, size_t wall,
+                        double tensor[3][3])
+{
+    const struct fixed_particles *f = boundary->data;
+    const struct particles *block = view->particles;
+    const double rho = f->rho[wall], volume = view->mass / rho;
+    double weight = 0.0, push[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
+    for (uint32_t c = f->back_start[wall]; c < f->back_start[wall + 1]; ++c) {
+        const size_t i = boundary->near[f->back_near[c]];
+        double d[3];
+        const double r = sqrt(pair_vector(f, block, i, &f->pairs[f->back[c]], d)),
+                     w = kernel_w(&view->kernel, r), volume_i = block->m[i] / block->rho[i];
+        const double factor = (volume_i * volume_i + volume * volume) * kernel_dw(&view->kernel, r) *
+                              block->rho[i] / ((rho + block->rho[i]) * r);
+        weight += w;
+        for (int k = 0; k < 3; ++k) {
+            push[k] += factor * d[k];
+            moment[k] -= block->rho[i] * d[k] * w;
         }
     }
+    for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+            tensor[k][l] = weight > 0.0 ? push[k] * moment[l] / weight : 0.0;
+}
+
+static int fixed_particles_added_mass(struct boundary *boundary, const struct fluid_view *view)
+{
+    struct fixed_particles *f = boundary->data;
+    for (size_t s = 0; s < boundary->n_surfaces; ++s)
+        boundary->surfaces[s]->n_added_mass = 0;
+    for (size_t k = 0; k < f->material.n; ++k)
+        f->tensor[k] = boundary->surfaces[f->material.surface[k]]->n_added_mass++;
+    for (size_t s = 0; s < boundary->n_surfaces; ++s) {
+        struct surface *surface = boundary->surfaces[s];
+        CALL(memory_grow((void **)&surface->added_mass, &surface->added_mass_capacity, surface->n_added_mass,
+                         sizeof *surface->added_mass));
+    }
+#pragma omp parallel for schedule(static)
+    for (size_t k = 0; k < f->material.n; ++k) {
+        struct added_mass_contact *contact =
+            &boundary->surfaces[f->material.surface[k]]->added_mass[f->tensor[k]];
+        material_points_contact(&f->material, k, contact);
+        tensor_fill(boundary, view, f->material.particle[k], contact->tensor);
+    }
+    return 0;
 }
 
 const struct boundary_type boundary_fixed_particles = {
@@ -612,4 +676,5 @@ const struct boundary_type boundary_fixed_particles = {
     .unfold = fixed_particles_gather,
     .react = fixed_particles_react,
     .load = fixed_particles_load,
+    .added_mass = fixed_particles_added_mass,
 };

@@ -417,10 +417,11 @@ int sliding_added_mass(struct boundary *boundary, const struct fluid_view *view)
             pack(s, view, contact, (int32_t)k, view->particles->m[i], block);
             struct added_mass_contact *out =
                 &boundary->surfaces[contact->surface]->added_mass[contact->tensor];
-            memcpy(out->rows, contact->nodes, sizeof out->rows);
-            memcpy(out->columns, source->nodes, sizeof out->columns);
-            memcpy(out->row_weights, contact->nodes_weight, sizeof out->row_weights);
-            memcpy(out->column_weights, source->nodes_weight, sizeof out->column_weights);
+            memcpy(out->rows, contact->nodes, sizeof contact->nodes);
+            memcpy(out->columns, source->nodes, sizeof source->nodes);
+            memcpy(out->row_weights, contact->nodes_weight, sizeof contact->nodes_weight);
+            memcpy(out->column_weights, source->nodes_weight, sizeof source->nodes_weight);
+            out->rows[SIDE_MAX_NODES] = out->columns[SIDE_MAX_NODES] = -1;
             contact_tensor(view, i, contact, source, block, out->tensor);
         }
     }

@@ -43,6 +43,11 @@ static int solids_create(struct assembly *a)
     CHECK_MEMORY(a->solids);
     for (; a->n_solids < a->model->n_meshes; ++a->n_solids)
         CALL(solid_create(&a->solids[a->n_solids], a->model, (int)a->n_solids));
+    return 0;
+}
+
+static int solids_attach(struct assembly *a)
+{
     for (size_t k = 0; k < a->n_solids; ++k)
         for (size_t s = 0; s < a->n_surfaces; ++s)
             CALL(solid_attach(a->solids[k], a->surfaces[s]));
@@ -62,6 +67,7 @@ static int parts_create(struct assembly *a)
                                           .timer = &a->timer};
         CALL(fluid_create(&a->fluid, a->model, &parts));
     }
+    CALL(solids_attach(a));
     const struct coupling_parts parts = {a->fluid,    a->solids,     a->n_solids,
                                          a->surfaces, a->n_surfaces, &a->timer};
     return coupling_create(&a->coupling, a->model, &parts);
