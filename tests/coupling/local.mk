@@ -20,3 +20,10 @@ tests_coupling_test_fixed_point_SOURCES = tests/coupling/test_fixed_point.c test
 tests_coupling_test_fixed_point_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
 tests_coupling_test_fixed_point_LDADD = $(test_libs)
 TESTS += tests/coupling/test_fixed_point
+
+check_PROGRAMS += tests/coupling/test_material_particles
+tests_coupling_test_material_particles_SOURCES = tests/coupling/test_material_particles.c tests/run/beam_deck.h \
+	$(test_assembly)
+tests_coupling_test_material_particles_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
+tests_coupling_test_material_particles_LDADD = $(test_libs)
+TESTS += tests/coupling/test_material_particles

@@ -127,10 +127,10 @@ static void test_combinations(void **state)
 }
 
 /** The beam in motion, after @p steps. */
-static void beam_start(struct assembly *a, const char *lid, const char *coupling, long steps)
+static void beam_start(struct assembly *a, const char *wet, const char *lid, const char *coupling, long steps)
 {
     char text[TEXT];
-    snprintf(text, sizeof text, beam_deck, fluid_types[0]->name, "sliding-particles", lid, coupling);
+    snprintf(text, sizeof text, beam_deck, fluid_types[0]->name, wet, lid, coupling);
     assert_int_equal(assembly_create(a, text, NULL), 0);
     assert_int_equal(assembly_start(a), 0);
     assert_int_equal(assembly_steps(a, steps), 0);
@@ -147,9 +147,10 @@ static void *copy_of(const void *data, size_t size)
 static void test_interface_is_repeatable(void **state)
 {
     (void)state;
-    for (size_t w = 0; w < WALL_TYPES; ++w) {
+    for (size_t w = 0; w < WALL_TYPES * WALL_TYPES; ++w) {
         struct assembly a;
-        beam_start(&a, wall_types[w]->name, "scheme='fixed-point'", 7);
+        beam_start(&a, wall_types[w / WALL_TYPES]->name, wall_types[w % WALL_TYPES]->name,
+                   "scheme='fixed-point'", 7);
         const double dt = a.model->time.step;
         for (size_t s = 0; s < a.n_surfaces; ++s)
             surface_open(a.surfaces[s], a.t + dt);
@@ -178,7 +179,7 @@ static void test_surface_at_start(void **state)
 {
     (void)state;
     struct assembly a;
-    beam_start(&a, "sliding-particles", "scheme='fixed-point'", 6);
+    beam_start(&a, "sliding-particles", "sliding-particles", "scheme='fixed-point'", 6);
     struct surface *wet = assembly_surface(&a, "wet");
     const size_t size = wet->n_points * sizeof *wet->now.x;
     assert_true(wet->level[1].t > wet->level[0].t);
@@ -193,11 +194,10 @@ static void test_surface_at_start(void **state)
 }
 
 /** The map of a solid to its surface and its transpose: force, moment and power are those of the points. */
-static void test_attachment_conserves(void **state)
+static void attachment_check(const char *treatment)
 {
-    (void)state;
     struct assembly a;
-    beam_start(&a, "sliding-particles", "scheme='fixed-point' tolerance='1e-11'", 6);
+    beam_start(&a, treatment, "sliding-particles", "scheme='fixed-point' tolerance='1e-11'", 6);
     const struct surface *wet = assembly_surface(&a, "wet");
     const struct mesh *mesh = solid_mesh(a.solids[0]);
     const double(*x)[3] = solid_positions(a.solids[0]), (*v)[3] = assembly_nodes(&a, "Velocity");
@@ -226,6 +226,13 @@ static void test_attachment_conserves(void **state)
     assembly_reset(&a);
 }
 
+static void test_attachment_conserves(void **state)
+{
+    (void)state;
+    for (size_t w = 0; w < WALL_TYPES; ++w)
+        attachment_check(wall_types[w]->name);
+}
+
 static bool in_table(const struct field_group *group, const void *array)
 {
     for (size_t f = 0; f < group->n_fields; ++f)
@@ -239,7 +246,7 @@ static void test_arrays_are_in_tables(void **state)
 {
     (void)state;
     struct assembly a;
-    beam_start(&a, "sliding-particles", "scheme='fixed-point'", 3);
+    beam_start(&a, "sliding-particles", "sliding-particles", "scheme='fixed-point'", 3);
     const struct particles *b = fluid_particles(a.fluid);
     const void *const arrays[] = {b->id,   b->kind, b->opening, b->x[0], b->x[1], b->x[2],
                                   b->u[0], b->u[1], b->u[2],    b->rho,  b->p,    b->m};

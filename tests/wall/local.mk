@@ -26,3 +26,8 @@ tests_wall_test_rest_3d_SOURCES = tests/wall/test_rest_3d.c $(test_assembly)
 tests_wall_test_rest_3d_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
 tests_wall_test_rest_3d_LDADD = $(test_libs)
 TESTS += tests/wall/test_rest_3d
+
+check_PROGRAMS += tests/wall/test_fixed_particles
+tests_wall_test_fixed_particles_SOURCES = tests/wall/test_fixed_particles.c tests/wall/wall_scene.h
+tests_wall_test_fixed_particles_LDADD = $(test_libs)
+TESTS += tests/wall/test_fixed_particles

@@ -9,62 +9,6 @@
 
 #define PI 3.14159265358979323846
 
-static double noise(uint32_t *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return (double)*seed / 4294967296.0 - 0.5;
-}
-
-/** Awkward values on every particle, the same for the same place. */
-static void fill_values(struct scene *scene)
-{
-    struct particles *p = scene->particles;
-    for (size_t i = 0; i < p->n; ++i) {
-        uint32_t seed = (uint32_t)lround(1e3 * (p->x[0][i] + 31.0 * p->x[1][i] + 977.0 * p->x[2][i]));
-        for (int k = 0; k < 4; ++k)
-            noise(&seed);
-        p->p[i] = 3.0 * noise(&seed) + 2.0;
-        p->rho[i] = 1.0 + 0.05 * noise(&seed);
-        for (int k = 0; k < scene->model.dim; ++k)
-            p->u[k][i] = noise(&seed);
-    }
-    for (int k = 0; k < scene->model.dim; ++k)
-        scene->view.body_force[k] = 0.3 - 0.7 * k;
-}
-
-/** Forces by eq. 40 on all near particles, reactions, and loads; returns the total force on the fluid. */
-static void forces(struct scene *scene, double total[3])
-{
-    struct boundary *b = scene->boundary;
-    const struct particles *p = scene->particles;
-    assert_int_equal(b->type->close(b, &scene->view), 0);
-    total[0] = total[1] = total[2] = 0.0;
-    for (size_t near = 0; near < b->n_near; ++near) {
-        struct wall_neighbours *w = &scene->neighbours;
-        assert_int_equal(b->type->gather(b, &scene->view, near, w), 0);
-        uint32_t i = b->near[near];
-        double *force[3], volume = p->m[i] / p->rho[i];
-        for (int k = 0; k < 3; ++k)
-            force[k] = memory_create(w->n, sizeof(double));
-        for (size_t n = 0; n < w->n; ++n) {
-            double mean = (w->rho[n] * p->p[i] + p->rho[i] * w->p[n]) / (w->rho[n] + p->rho[i]);
-            double v2 = volume * volume + w->volume[n] * w->volume[n];
-            for (int k = 0; k < 3; ++k) {
-                force[k][n] =
-                    v2 * w->dw[n] / w->r[n] *
-                    (-w->share_pressure[n] * mean * w->dx[k][n] +
-                     w->share_viscous[n] * scene->view.viscosity * (p->u[k][i] - w->u_viscous[k][n]));
-                total[k] += force[k][n];
-            }
-        }
-        b->type->react(b, near, w, force);
-        for (int k = 0; k < 3; ++k)
-            memory_free(force[k]);
-    }
-    surface_clear_load(scene->surface);
-    b->type->load(b, &scene->view);
-}
-
 static void lattice(struct scene *scene, double low_x, double low_y, double low_z, int nx, int ny, int nz,
                     double jitter)
 {
@@ -72,9 +16,9 @@ static void lattice(struct scene *scene, double low_x, double low_y, double low_
     for (int k = 0; k < nz; ++k)
         for (int j = 0; j < ny; ++j)
             for (int i = 0; i < nx; ++i)
-                scene_add(scene, low_x + i + 0.5 + jitter * noise(&seed),
-                          low_y + j + 0.5 + jitter * noise(&seed),
-                          scene->model.dim > 2 ? low_z + k + 0.5 + jitter * noise(&seed) : 0.0);
+                scene_add(scene, low_x + i + 0.5 + jitter * scene_noise(&seed),
+                          low_y + j + 0.5 + jitter * scene_noise(&seed),
+                          scene->model.dim > 2 ? low_z + k + 0.5 + jitter * scene_noise(&seed) : 0.0);
 }
 
 /** A flat wall below y = 0 in facets of @p size. */
@@ -102,8 +46,8 @@ static void test_flat_is_paper(void **state)
         lattice(&scene[rule], -8.0, 0.0, 0.0, 16, 8, 1, 0.2);
         floor_2d(&scene[rule], 1.7);
         scene_build(&scene[rule], rule ? CORNERS_PAPER : CORNERS_SHARES);
-        fill_values(&scene[rule]);
-        forces(&scene[rule], total[rule]);
+        scene_fill(&scene[rule]);
+        scene_forces(&scene[rule], total[rule]);
     }
     // the published rule lists particles a little further away, whose blocks are out of reach
     struct boundary *a = scene[0].boundary, *b = scene[1].boundary;
@@ -199,10 +143,10 @@ static void step_scene(struct scene *scene, double size, enum corners corners)
     for (int j = 0; j < 10; ++j)
         for (int i = -10; i < 10; ++i)
             if (i < 0 || j >= 3)
-                scene_add(scene, i + 0.5 + 0.3 * noise(&seed), j + 0.5 + 0.3 * noise(&seed), 0.0);
+                scene_add(scene, i + 0.5 + 0.3 * scene_noise(&seed), j + 0.5 + 0.3 * scene_noise(&seed), 0.0);
     step_2d(scene, size);
     scene_build(scene, corners);
-    fill_values(scene);
+    scene_fill(scene);
 }
 
 static void test_conservation(void **state)
@@ -212,7 +156,7 @@ static void test_conservation(void **state)
         struct scene scene;
         double total[3], force[3], moment[3];
         step_scene(&scene, 1.3, rule ? CORNERS_PAPER : CORNERS_SHARES);
-        forces(&scene, total);
+        scene_forces(&scene, total);
         surface_total_load(scene.surface, scene_zero, force, moment);
         assert_true(fabs(total[0]) + fabs(total[1]) > 1.0);
         for (int k = 0; k < 3; ++k)
@@ -229,7 +173,7 @@ static void test_subdivision(void **state)
     double total[3][3], sum[3];
     for (int s = 0; s < 3; ++s) {
         step_scene(&scene, sizes[s], CORNERS_SHARES);
-        forces(&scene, total[s]);
+        scene_forces(&scene, total[s]);
         sum[s] = 0.0;
         for (size_t near = 0; near < scene.boundary->n_near; ++near)
             sum[s] += scene.boundary->kernel_sum[near] * (1.0 + 0.01 * (double)near);
@@ -251,8 +195,8 @@ static void test_threads(void **state)
         double total[3];
         omp_set_num_threads(t ? 2 : 1);
         step_scene(&scene[t], 0.9, CORNERS_SHARES);
-        forces(&scene[t], total);
-        forces(&scene[t], total); // twice gives the same
+        scene_forces(&scene[t], total);
+        scene_forces(&scene[t], total); // twice gives the same
     }
     omp_set_num_threads(before);
     assert_int_equal(scene[0].boundary->n_near, scene[1].boundary->n_near);
@@ -321,8 +265,8 @@ static void test_rotating_circle(void **state)
     definition->motion.angular_velocity = expression_constant(-0.7);
     scene_build(&scene, CORNERS_SHARES);
     assert_true(scene.boundary->moving);
-    fill_values(&scene);
-    forces(&scene, total);
+    scene_fill(&scene);
+    scene_forces(&scene, total);
     for (size_t near = 0; near < scene.boundary->n_near; ++near) {
         struct wall_neighbours *w = &scene.neighbours;
         assert_int_equal(scene.boundary->type->gather(scene.boundary, &scene.view, near, w), 0);
@@ -388,7 +332,8 @@ static void test_added_mass(void **state)
     for (int j = 0; j < 10; ++j)
         for (int i = -10; i < 10; ++i)
             if (i < 0 || j >= 3)
-                scene_add(&scene, i + 0.5 + 0.3 * noise(&seed), j + 0.5 + 0.3 * noise(&seed), 0.0);
+                scene_add(&scene, i + 0.5 + 0.3 * scene_noise(&seed), j + 0.5 + 0.3 * scene_noise(&seed),
+                          0.0);
     step_2d(&scene, 2.3);
     for (size_t i = 0; i < scene.surface_definition.built.n_points; ++i)
         scene.surface_definition.built_mesh[i] = 0;
@@ -396,21 +341,21 @@ static void test_added_mass(void **state)
     scene.model.n_meshes = 1;
     scene_build(&scene, CORNERS_SHARES);
     assert_true(scene.boundary->coupled);
-    fill_values(&scene);
+    scene_fill(&scene);
     const size_t n = scene.surface->n_points;
     double(*direction)[3] = memory_create(n, sizeof *direction), (*load)[3] = memory_create(n, sizeof *load),
     (*product)[3] = memory_create(n, sizeof *product), total[3];
     for (size_t i = 0; i < n; ++i)
         for (int k = 0; k < 2; ++k)
-            direction[i][k] = noise(&seed);
-    forces(&scene, total);
+            direction[i][k] = scene_noise(&seed);
+    scene_forces(&scene, total);
     assert_int_equal(scene.boundary->type->added_mass(scene.boundary, &scene.view), 0);
     surface_added_mass_apply(scene.surface, (const double(*)[3])direction, product);
     memcpy(load, scene.surface->load, n * sizeof *load);
     memcpy(scene.surface->level[1].a, direction, n * sizeof *direction);
     memcpy(scene.surface->level[0].a, direction, n * sizeof *direction);
     assert_int_equal(boundary_prepare(scene.boundary, &scene.view, false), 0);
-    forces(&scene, total);
+    scene_forces(&scene, total);
     double largest = 0.0, off = 0.0, energy = 0.0;
     for (size_t i = 0; i < n; ++i)
         for (int k = 0; k < 3; ++k) {
@@ -494,8 +439,8 @@ static void test_warped(void **state)
         lattice(&scene[warped], -5.0, -5.0, -5.0, 10, 10, 10, 0.2);
         box_3d(&scene[warped], 5.0, warped ? 0.012 : 0.0);
         scene_build(&scene[warped], CORNERS_SHARES);
-        fill_values(&scene[warped]);
-        forces(&scene[warped], total);
+        scene_fill(&scene[warped]);
+        scene_forces(&scene[warped], total);
         surface_total_load(scene[warped].surface, scene_zero, force, moment);
         for (int k = 0; k < 3; ++k)
             assert_true(fabs(force[k] + total[k]) < 1e-11);
@@ -558,7 +503,7 @@ static void test_layers_are_blocks(void **state)
     box_3d(&scene, 5.0, 0.0);
     scene_build(&scene, CORNERS_SHARES);
     for (int half = 0; half < 2; ++half) {
-        fill_values(&scene);
+        scene_fill(&scene);
         for (size_t i = 0; half && i < scene.particles->n; ++i)
             scene.particles->p[i] *= 0.5;
         for (int k = 0; half && k < 3; ++k)

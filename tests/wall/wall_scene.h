@@ -102,6 +102,8 @@ static inline void scene_list(struct scene *scene)
     assert_int_equal(cell_grid_sort(&scene->grid, x, scene->particles->n, order), 0);
     assert_int_equal(particles_permute(scene->particles, order, scene->particles->n), 0);
     memory_free(order);
+    for (size_t k = 0; k < scene->boundary->n_surfaces; ++k)
+        surface_at(scene->boundary->surfaces[k], scene->view.t);
     assert_int_equal(scene->boundary->type->list(scene->boundary, &scene->view), 0);
     assert_int_equal(boundary_prepare(scene->boundary, &scene->view, false), 0);
 }
@@ -119,10 +121,12 @@ static inline void scene_build(struct scene *scene, enum corners corners)
     scene->view.particles = scene->particles;
     scene->view.grid = &scene->grid;
     assert_int_equal(surface_create(&scene->surface, &scene->model, 0, 0.0), 0);
-    const struct boundary_type *const types[] = {&boundary_sliding_particles};
-    assert_int_equal(types[0]->check(&scene->model, &scene->wall), 0);
-    assert_int_equal(
-        boundary_create(&scene->boundary, &scene->model, 0, &scene->surface, &scene->view, types, 1), 0);
+    for (size_t w = 0; w < WALL_TYPES; ++w)
+        if (!strcmp(wall_types[w]->name, scene->wall.treatment))
+            assert_int_equal(wall_types[w]->check(&scene->model, &scene->wall), 0);
+    assert_int_equal(boundary_create(&scene->boundary, &scene->model, 0, &scene->surface, &scene->view,
+                                     wall_types, WALL_TYPES),
+                     0);
     scene_list(scene);
 }
 
@@ -194,6 +198,62 @@ static inline void scene_errors(struct scene *scene, double radius, double *dens
         *gradient = fmax(*gradient, sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
     }
     assert_true(n > 4);
+}
+
+static inline double scene_noise(uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (double)*seed / 4294967296.0 - 0.5;
+}
+
+/** Awkward values on every particle, the same for the same place. */
+static inline void scene_fill(struct scene *scene)
+{
+    struct particles *p = scene->particles;
+    for (size_t i = 0; i < p->n; ++i) {
+        uint32_t seed = (uint32_t)lround(1e3 * (p->x[0][i] + 31.0 * p->x[1][i] + 977.0 * p->x[2][i]));
+        for (int k = 0; k < 4; ++k)
+            scene_noise(&seed);
+        p->p[i] = 3.0 * scene_noise(&seed) + 2.0;
+        p->rho[i] = 1.0 + 0.05 * scene_noise(&seed);
+        for (int k = 0; k < scene->model.dim; ++k)
+            p->u[k][i] = scene_noise(&seed);
+    }
+    for (int k = 0; k < scene->model.dim; ++k)
+        scene->view.body_force[k] = 0.3 - 0.7 * k;
+}
+
+/** Forces by eq. 40 on all near particles, reactions, and loads; returns the total force on the fluid. */
+static inline void scene_forces(struct scene *scene, double total[3])
+{
+    struct boundary *b = scene->boundary;
+    const struct particles *p = scene->particles;
+    assert_int_equal(b->type->close(b, &scene->view), 0);
+    total[0] = total[1] = total[2] = 0.0;
+    for (size_t near = 0; near < b->n_near; ++near) {
+        struct wall_neighbours *w = &scene->neighbours;
+        assert_int_equal(b->type->gather(b, &scene->view, near, w), 0);
+        uint32_t i = b->near[near];
+        double *force[3], volume = p->m[i] / p->rho[i];
+        for (int k = 0; k < 3; ++k)
+            force[k] = memory_create(w->n, sizeof(double));
+        for (size_t n = 0; n < w->n; ++n) {
+            double mean = (w->rho[n] * p->p[i] + p->rho[i] * w->p[n]) / (w->rho[n] + p->rho[i]);
+            double v2 = volume * volume + w->volume[n] * w->volume[n];
+            for (int k = 0; k < 3; ++k) {
+                force[k][n] =
+                    v2 * w->dw[n] / w->r[n] *
+                    (-w->share_pressure[n] * mean * w->dx[k][n] +
+                     w->share_viscous[n] * scene->view.viscosity * (p->u[k][i] - w->u_viscous[k][n]));
+                total[k] += force[k][n];
+            }
+        }
+        b->type->react(b, near, w, force);
+        for (int k = 0; k < 3; ++k)
+            memory_free(force[k]);
+    }
+    surface_clear_load(scene->surface);
+    b->type->load(b, &scene->view);
 }
 
 #endif
