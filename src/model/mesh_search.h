@@ -22,7 +22,7 @@ int mesh_search_init(struct mesh_search *search, const struct mesh *mesh, double
 void mesh_search_reset(struct mesh_search *search);
 
 /** Element and natural coordinates of the material point at reference place @p X; false when it lies outside
- * the mesh. On the common side of several elements: the first. */
+ * the mesh. On the common side of several elements rounding decides which it is. */
 bool mesh_search_find(const struct mesh_search *search, const double X[3], size_t *element, double xi[3]);
 
 #endif

@@ -32,3 +32,8 @@ check_PROGRAMS += tests/model/test_surface_rims
 tests_model_test_surface_rims_SOURCES = tests/model/test_surface_rims.c
 tests_model_test_surface_rims_LDADD = $(test_libs)
 TESTS += tests/model/test_surface_rims
+
+check_PROGRAMS += tests/model/test_mesh_search
+tests_model_test_mesh_search_SOURCES = tests/model/test_mesh_search.c
+tests_model_test_mesh_search_LDADD = $(test_libs)
+TESTS += tests/model/test_mesh_search

@@ -87,6 +87,42 @@ static void test_create(void **state)
     teardown(&f);
 }
 
+/** Inner nodes of the mesh follow as further points; what was there stays. */
+static void test_add_nodes(void **state)
+{
+    (void)state;
+    struct fixture f;
+    setup(&f);
+    double X[4][3] = {{0.0, 0.0, 0.0}, {1.75, 0.375, 0.0}, {0.0, 0.0, 0.0}, {2.5, -0.5, 0.0}};
+    const int32_t nodes[2] = {3, 1};
+    double first[3][3], displacement[5][3];
+    struct surface *s = f.surface;
+    f.mesh.mesh.X = X;
+    memcpy(first, s->level[1].x, sizeof first);
+    s->load_previous[1][0] = 3.25;
+    assert_int_equal(surface_add_nodes(s, &f.model, 0, 2, nodes), 0);
+    assert_int_equal(s->n_points, 5);
+    assert_int_equal(s->n_facets, 2);
+    assert_memory_equal(s->level[0].x, first, sizeof first);
+    assert_memory_equal(s->now.x, first, sizeof first);
+    assert_true(s->load_previous[1][0] == 3.25 && s->load_previous[3][0] == 0.0);
+    assert_int_equal(s->mesh[0], -1);
+    assert_int_equal(s->mesh_node[2], 17);
+    for (int k = 0; k < 2; ++k) {
+        assert_int_equal(s->mesh[3 + k], 0);
+        assert_int_equal(s->mesh_node[3 + k], nodes[k]);
+        assert_memory_equal(s->X[3 + k], X[nodes[k]], sizeof *X);
+        assert_true(fabs(s->trial.x[3 + k][1] - X[nodes[k]][1] - 0.01 * X[nodes[k]][0]) < 1e-15);
+        assert_true(s->level[0].v[3 + k][0] == -X[nodes[k]][1]);
+    }
+    const struct field *field = field_find(&s->fields, "Displacement");
+    assert_int_equal(*s->fields.count, 5);
+    assert_int_equal(field_read(&s->fields, field, displacement), 0);
+    assert_true(fabs(displacement[4][1] - 0.0175) < 1e-15 && fabs(displacement[1][0] - 0.05) < 1e-15);
+    assert_true(field_find(&s->fields, "Load")->data[0] == (void *)s->load);
+    teardown(&f);
+}
+
 static void test_levels(void **state)
 {
     (void)state;
@@ -261,10 +297,10 @@ static void test_analytic(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_create),     cmocka_unit_test(test_levels),
-        cmocka_unit_test(test_loads),      cmocka_unit_test(test_parts_of_a_step),
-        cmocka_unit_test(test_added_mass), cmocka_unit_test(test_spread),
-        cmocka_unit_test(test_analytic),
+        cmocka_unit_test(test_create),          cmocka_unit_test(test_add_nodes),
+        cmocka_unit_test(test_levels),          cmocka_unit_test(test_loads),
+        cmocka_unit_test(test_parts_of_a_step), cmocka_unit_test(test_added_mass),
+        cmocka_unit_test(test_spread),          cmocka_unit_test(test_analytic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -210,6 +210,24 @@ def moving(dim, part):
     return text + OUTPUT % histories(dim, False, "body")
 
 
+def driven(dim, part):
+    """A body of elements all of whose nodes are led, through a box of fluid that is periodic in all directions."""
+    lower, upper = ["0.25", "0.3" if dim == 2 else "0.25", "0.15"][:dim], ["0.55", "0.5" if dim == 2 else "0.55", "0.35"][:dim]
+    text = head(dim, ["0", "0", "0"], ["0", "0", "0"], ["0.8", "0.8", "0.5"], " ".join("xyz"[:dim]), RUBBER % (LAWS[0], YOUNG[dim]))
+    text += fluid(part["formulation"], part["arithmetic"], "<difference><box lower=\"%s\" upper=\"%s\"/><inside surface=\"body\"/></difference>" % (
+        " ".join(["0", "0", "0"][:dim]), " ".join(["0.8", "0.8", "0.5"][:dim])))
+    box = '<box lower="%s" upper="%s"/>' % (" ".join(lower), " ".join(upper))
+    motion = '<displacement value="%s"/>' % " ".join(["0.7*t+0.02*sin(20*t)*y", "0.02*sin(30*t)", "0.4*t"][:dim])
+    text += """<meshes><mesh name="beam" material="rubber" formulation="full">
+  <grid type="%s" lower="%s" upper="%s" cells="%s"/>
+  <set name="all">%s</set><support set="all">%s</support>
+</mesh></meshes>
+<surfaces><surface name="body"><skin mesh="beam"/></surface></surfaces>
+<boundaries><wall name="body" surfaces="body" treatment="%s"/></boundaries>
+""" % (part["element"], " ".join(lower), " ".join(upper), " ".join(["2", "2", "1"][:dim]), box, motion, part["wall"])
+    return text + OUTPUT % histories(dim, True, "body")
+
+
 def raft(part):
     """Wall particles of a region of their own that cross a periodic side, under a fluid."""
     text = head(2, ["0", "-1", "0"], ["0", "-0.2"], ["0.6", "0.6"], "x")
@@ -313,6 +331,13 @@ def all_decks(skerry, everything):
                     yield named(kind, make, **part)
             for element in kinds[dim]:
                 yield named(kind, make, **dict(first, element=element, solid="full"))
+            for wet in treatments[:-1]:
+                for scheme, acceleration in itertools.product(schemes, accelerations):
+                    yield named(kind, make, **dict(first, wet=wet, scheme=scheme, acceleration=acceleration))
+                for end, element in itertools.product(ends[1:], kinds[dim]):
+                    yield named(kind, make, **dict(first, wet=wet, ends=end, element=element, solid="full"))
+            for wall in treatments:
+                yield named("driven%d" % dim, lambda part, d=dim: driven(d, part), wall=wall, element=kinds[dim][-1], **common)
             for law in laws[1:]:
                 yield named(kind, make, **dict(first, law=law))
             for wall, wet, corners, gradient in itertools.product(

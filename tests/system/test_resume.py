@@ -195,7 +195,8 @@ def chain(skerry, folder, number, name, deck):
 def test_chain(skerry, folder):
     decks = chosen(skerry, "beam2-.*-characteristic-quad4-eas-shares-yes-fixed-point-iqn-ils-.*",
                    "beam2-.*-characteristic-quad4-eas-shares-yes-sub-cycled-added-mass-.*",
-                   "moving2-fixed-particles-edged-translation-.*")
+                   "beam2-fixed-particles-fixed-particles-characteristic-quad9-.*",
+                   "moving2-fixed-particles-edged-translation-.*", "driven2-fixed-particles-.*")
     if LONG:
         decks += chosen(skerry, "beam3-.*-momentum-hex8-f-bar-shares-.*", "moving3-sliding-particles-edged-rotation-.*",
                         "burst-.*", "alone3-.*")
@@ -301,6 +302,7 @@ def test_perturb(skerry, folder):
     decks = chosen(skerry, "beam2-.*-characteristic-quad4-eas-shares-yes-fixed-point-added-mass-.*",
                    "beam2-.*-characteristic-quad4-eas-shares-yes-fixed-point-iqn-ils-.*",
                    "beam2-.*-characteristic-quad4-eas-shares-yes-sub-cycled-added-mass-.*",
+                   "beam2-fixed-particles-fixed-particles-characteristic-quad9-.*", "driven2-fixed-particles-.*",
                    "moving2-sliding-particles-round-rotation-.*", "moving2-fixed-particles-edged-translation-.*",
                    "raft-.*", "burst-.*", "alone2-quad4-full-saint-venant-kirchhoff-moving")
     acts = {}

@@ -22,6 +22,7 @@ ARITHMETICS = ("mixed", "double")
 # More particles than fit into one piece of work of seven threads, in the benchmarks' own decks.
 GENERATED = {
     "fsi2": ("turek-hron-fsi2", "--dx", "0.41/50", "--frames", "0.002"),
+    "fsi2-fixed": ("turek-hron-fsi2", "--dx", "0.41/50", "--wall", "fixed-particles", "--frames", "0.002"),
     "channel-fixed": ("channel", "--dx", "0.01", "--wall", "fixed-particles", "--frames", "0.002"),
     "channel-sliding": ("channel", "--dx", "0.01", "--wall", "sliding-particles", "--frames", "0.002"),
     "box-3d": ("box-3d", "--cells", "18", "17", "16", "--frames", "0.001"),
@@ -30,7 +31,8 @@ GENERATED = {
 SMALL = ("channel3-sliding-particles-momentum-.*", "channel3-fixed-particles-characteristic-.*",
          "moving3-sliding-particles-edged-rotation-.*", "moving2-fixed-particles-edged-translation-.*",
          "beam2-.*-characteristic-quad4-eas-shares-yes-fixed-point-aitken-.*",
-         "beam3-.*-periodic-hex8-f-bar-shares-yes-fixed-point-added-mass-.*")
+         "beam3-.*-periodic-hex8-f-bar-shares-yes-fixed-point-added-mass-.*",
+         "beam3-fixed-particles-fixed-particles-characteristic-hex27-.*", "driven3-fixed-particles-.*")
 
 
 def decks(skerry):
