@@ -333,8 +333,8 @@ static const struct schema_attribute wall_attributes[] = {
     {"surfaces", SCHEMA_REFERENCES,
      .doc = "the <surface>s it consists of; or a <region> of wall particles inside"},
     {"treatment", SCHEMA_CHOICE, .required = true, .choices = "fixed-particles|sliding-particles",
-     .doc = "layers of wall particles that stay in place, or virtual particles that slide along with each "
-            "fluid particle"},
+     .doc = "layers of wall particles that stay on the wall (in a mesh: on its material), or virtual "
+            "particles that slide along with each fluid particle"},
     {"corners", SCHEMA_CHOICE, .choices = "shares|paper", .fallback = "shares",
      .doc = "sliding-particles where facets meet: shares of the facets, or contact points as published"},
     {"pressure-gradient", SCHEMA_CHOICE, .choices = "yes|no", .fallback = "yes",

@@ -199,6 +199,74 @@ static void test_three_dimensions(void **state)
     }
 }
 
+/** A fluid, periodic in x and y, around a block that a linear motion stretches and turns: the places are for
+ * what says that the block is a mesh, or particles of their own. */
+static const char led_deck[] =
+    "<deck version='1' dim='2'>\n"
+    "<time end='1' step='1e-3'/>\n"
+    "<domain lower='0 0' upper='1 1' periodic='x y'/>\n"
+    "<materials><fluid name='oil' density='1.3' kinematic-viscosity='0.05' sound-speed='10' "
+    "background-pressure='130'/><solid name='rubber' density='2' young='900' poisson='0.3'/></materials>\n"
+    "<fluid formulation='transport-velocity' material='oil' spacing='0.05' arithmetic='double'>\n"
+    "  <region><difference><box lower='0 0' upper='1 1'/><box lower='0.4 0.35' upper='0.6 0.6'/></difference>"
+    "</region></fluid>\n"
+    "%s<output><fields every='1'/></output>\n"
+    "</deck>\n";
+
+#define LED_MOTION                                                                                           \
+    "<displacement value='3*t^2*x-2*t^2*y t^2*x-4*t^2*y' velocity='6*t*x-4*t*y 2*t*x-8*t*y' "                \
+    "acceleration='6*x-4*y 2*x-8*y'/>"
+
+/** Particles by id. */
+static double *places_of(struct assembly *a)
+{
+    const struct particles *block = fluid_particles(a->fluid);
+    double *places = memory_create(2 * block->n, sizeof *places);
+    assert_non_null(places);
+    for (size_t i = 0; i < block->n; ++i)
+        for (size_t k = 0; k < 2; ++k)
+            places[2 * (size_t)block->id[i] + k] = block->x[k][i];
+    return places;
+}
+
+/** A mesh whose nodes are all led acts as wall particles that the deck leads in the same way. */
+static void test_led(void **state)
+{
+    (void)state;
+    static const char *const blocks[] = {
+        "<boundaries><wall name='block' treatment='fixed-particles'><region>"
+        "<box lower='0.4 0.35' upper='0.6 0.6'/></region>" LED_MOTION "</wall></boundaries>\n",
+        "<meshes><mesh name='block' material='rubber' formulation='full'>"
+        "<grid type='quad9' lower='0.4 0.35' upper='0.6 0.6' cells='3 2'/>"
+        "<set name='all'><box lower='0 0' upper='1 1'/></set><support set='all'>" LED_MOTION "</support>"
+        "</mesh></meshes>\n<surfaces><surface name='wet'><skin mesh='block'/></surface></surfaces>\n"
+        "<boundaries><wall name='block' surfaces='wet' treatment='fixed-particles'/></boundaries>\n"};
+    double *places[3], off = 0.0, moved = 0.0;
+    size_t n = 0;
+    for (int k = 0; k < 2; ++k) {
+        struct assembly a;
+        char text[TEXT];
+        snprintf(text, sizeof text, led_deck, blocks[k]);
+        assert_int_equal(assembly_create(&a, text, NULL), 0);
+        assert_int_equal(assembly_start(&a), 0);
+        if (k == 0)
+            places[2] = places_of(&a);
+        assert_int_equal(assembly_steps(&a, STEPS), 0);
+        places[k] = places_of(&a);
+        n = 2 * fluid_particles(a.fluid)->n;
+        assert_int_equal(n, 2 * (400 - 20));
+        assembly_reset(&a);
+    }
+    for (size_t i = 0; i < n; ++i) {
+        off = fmax(off, fabs(places[1][i] - places[0][i]));
+        moved = fmax(moved, fabs(places[0][i] - places[2][i]));
+    }
+    print_message("particles moved by up to %g and differ by %g\n", moved, off);
+    assert_true(moved > 1e-3 && off < 1e-11);
+    for (int k = 0; k < 3; ++k)
+        memory_free(places[k]);
+}
+
 static int quiet(void **state)
 {
     (void)state;
@@ -212,7 +280,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_schemes_agree),    cmocka_unit_test(test_light),
         cmocka_unit_test(test_sub_cycled),       cmocka_unit_test(test_near_sliding),
-        cmocka_unit_test(test_three_dimensions),
+        cmocka_unit_test(test_three_dimensions), cmocka_unit_test(test_led),
     };
     return cmocka_run_group_tests(tests, quiet, NULL);
 }

@@ -84,6 +84,9 @@ try turek-hron-fsi2 --dx 0.41/50 --rigid --corners paper
 try turek-hron-fsi2 --dx 0.41/50 --solid-density 5 --young 2800 --length 0.3 --acceleration aitken
 try turek-hron-fsi2 --dx 0.41/50 --density-ratio 0.1 --acceleration iqn-ils
 try turek-hron-fsi2 --dx 0.41/50 --density-ratio 1 --solid-every 4
+try turek-hron-fsi2 --dx 0.41/50 --wall fixed-particles
+grep -q 'name="obstacle" surfaces="obstacle" treatment="fixed-particles"/>' "$work/variant$n.xml" || fail "--wall had no effect"
+try turek-hron-fsi2 --dx 0.41/50 --wall fixed-particles --rigid
 try taylor-couette --facets 48
 try taylor-couette --facets 192 --corners paper
 try taylor-couette --wall fixed-particles
