@@ -203,21 +203,35 @@ static bool place_take(const struct filling *filling, struct wall_places *places
            (place_in_mesh(filling, places, k) || place_prescribed(filling, places, k));
 }
 
-static int places_reserve(struct wall_places *places, size_t n)
+/** Room for @p n places; @p capacity: of each array, 0 at first. */
+static int places_reserve(struct wall_places *places, size_t capacity[5], size_t n)
 {
-    CHECK_MEMORY(places->surface = memory_create(n, sizeof *places->surface));
-    CHECK_MEMORY(places->mesh = memory_create(n, sizeof *places->mesh));
-    CHECK_MEMORY(places->element = memory_create(n, sizeof *places->element));
-    CHECK_MEMORY(places->xi = memory_create(n, sizeof *places->xi));
+    CALL(memory_grow((void **)&places->X, &capacity[0], n, sizeof *places->X));
+    CALL(memory_grow((void **)&places->surface, &capacity[1], n, sizeof *places->surface));
+    CALL(memory_grow((void **)&places->mesh, &capacity[2], n, sizeof *places->mesh));
+    CALL(memory_grow((void **)&places->element, &capacity[3], n, sizeof *places->element));
+    return memory_grow((void **)&places->xi, &capacity[4], n, sizeof *places->xi);
+}
+
+/** Of the @p n points of a lattice what belongs to the wall. */
+static int places_filter(const struct filling *filling, size_t n, const double (*lattice)[3],
+                         struct wall_places *places)
+{
+    size_t capacity[5] = {0};
+    for (size_t i = 0; i < n; ++i) {
+        CALL(places_reserve(places, capacity, places->n + 1));
+        memcpy(places->X[places->n], lattice[i], sizeof *places->X);
+        places->n += place_take(filling, places, places->n);
+    }
     return 0;
 }
 
-/** Of the lattice of the fluid what belongs to the wall. */
+/** What lies behind the surfaces, on the lattice of the fluid. */
 static int places_behind(const struct filling *filling, struct wall_places *places)
 {
     const struct model *model = filling->model;
     const struct model_region *region = &model->fluid.regions[0];
-    double lower[3] = {0}, upper[3];
+    double lower[3] = {0}, upper[3], (*lattice)[3];
     shape_bounds(&region->shape, model->dim, lower, upper);
     const double *origin = region->has_origin ? region->origin
                            : region->n_points ? model->domain.lower
@@ -226,13 +240,10 @@ static int places_behind(const struct filling *filling, struct wall_places *plac
     size_t n;
     memcpy(domain.a, model->domain.lower, sizeof domain.a);
     memcpy(domain.b, model->domain.upper, sizeof domain.b);
-    CALL(geometry_fill(&domain, model->dim, filling->spacing, origin, 0.0, &places->X, &n));
-    CALL(places_reserve(places, n));
-    for (size_t i = 0; i < n; ++i) {
-        memmove(places->X[places->n], places->X[i], sizeof *places->X);
-        places->n += place_take(filling, places, places->n);
-    }
-    return 0;
+    CALL(geometry_fill(&domain, model->dim, filling->spacing, origin, 0.0, &lattice, &n));
+    const int status = places_filter(filling, n, (const double(*)[3])lattice, places);
+    memory_free(lattice);
+    return status;
 }
 
 /** The particles of the deck's region. */
@@ -240,20 +251,22 @@ static int places_given(const struct filling *filling, struct wall_places *place
 {
     const struct model_region *region = &filling->wall->region;
     const int dim = filling->model->dim;
-    double lower[3] = {0}, upper[3];
-    if (region->n_points) {
-        places->n = region->n_points;
-        CHECK_MEMORY(places->X = memory_create(places->n, sizeof *places->X));
-        memcpy(places->X, region->points, places->n * sizeof *places->X);
-    } else {
+    double lower[3] = {0}, upper[3], (*points)[3] = region->points;
+    size_t capacity[5] = {0}, n = region->n_points;
+    if (!region->n_points) {
         shape_bounds(&region->shape, dim, lower, upper);
         CALL(geometry_fill(&region->shape, dim, filling->spacing, region->has_origin ? region->origin : lower,
-                           0.0, &places->X, &places->n));
+                           0.0, &points, &n));
     }
-    CALL(places_reserve(places, places->n));
-    for (size_t k = 0; k < places->n; ++k)
+    const int status = places_reserve(places, capacity, n);
+    for (size_t k = 0; k < n && !status; ++k) {
+        memcpy(places->X[k], points[k], sizeof *places->X);
         places->surface[k] = places->mesh[k] = -1;
-    return 0;
+    }
+    places->n = n;
+    if (!region->n_points)
+        memory_free(points);
+    return status;
 }
 
 int wall_places_init(struct wall_places *places, const struct model *model, const struct model_wall *wall,

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "model/surface_build.h"
 #include "sph/boundary.h"
 #include "wall/wall_list.h"
 
@@ -137,10 +138,7 @@ static inline void scene_end(struct scene *scene)
     particles_destroy(scene->particles);
     cell_grid_reset(&scene->grid);
     wall_neighbours_reset(&scene->neighbours);
-    memory_free(scene->surface_definition.built.points);
-    memory_free(scene->surface_definition.built.nodes);
-    memory_free(scene->surface_definition.built_mesh);
-    memory_free(scene->surface_definition.built_node);
+    surface_build_reset(&scene->surface_definition);
     memset(scene, 0, sizeof *scene);
 }
 
