@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { DISC_CELLS = 20000 }; // across: nodes of quad9 stay below 2^31
+
 static const double set_tolerance = 1e-6; // of the mesh's diagonal: how far a box of a node set is widened
 
 /** ELEMENT_TYPES: none, which has been noted. */
@@ -60,6 +62,28 @@ static void read_grid(struct deck *deck, const struct deck_node *node, struct me
     int status = mesh_create_grid(mesh, deck->model->dim, lower, upper, cells);
     if (!status && type != mesh->type)
         status = mesh_convert(mesh, type);
+    if (status)
+        deck->status = status;
+}
+
+static void read_disc(struct deck *deck, const struct deck_node *node, struct mesh *mesh)
+{
+    static const enum element_type types[] = {ELEMENT_QUAD4, ELEMENT_QUAD8, ELEMENT_QUAD9};
+    const int type = deck_choice(deck, node, "type");
+    double centre[3];
+    size_t before = deck->n_problems;
+    deck_need_dim(deck, node, 2, "<grid>, or <nodes> and <elements>");
+    deck_vector(deck, node, "centre", centre);
+    const double radius = deck_real(deck, node, "radius");
+    const int cells = deck_integer(deck, node, "cells");
+    if (deck->n_problems == before && cells < 2)
+        deck_error(deck, node, "cells", "a disc of %d element%s across cannot be round; use 2 or more", cells,
+                   cells == 1 ? "" : "s");
+    if (deck->n_problems == before && cells > DISC_CELLS)
+        deck_error(deck, node, "cells", "%d elements across are more than %d", cells, DISC_CELLS);
+    if (deck->n_problems > before || type < 0)
+        return;
+    int status = mesh_create_disc(mesh, types[type], centre, radius, cells);
     if (status)
         deck->status = status;
 }
@@ -175,7 +199,8 @@ static void read_set(struct deck *deck, const struct deck_node *node, struct mes
         return;
     }
     if (mesh_find_set(mesh, deck_text(node, "name"))) {
-        deck_error(deck, node, "name", "the mesh has such a set already; a grid makes x- x+ y- y+ (z- z+)");
+        deck_error(deck, node, "name",
+                   "the mesh has such a set already; a grid makes x- x+ y- y+ (z- z+), a disc rim");
         return;
     }
     if (!box) {
@@ -257,6 +282,7 @@ static int read_loads(struct deck *deck, const struct deck_node *node, struct mo
 static int read_mesh(struct deck *deck, const struct deck_node *node, struct model_mesh *definition)
 {
     const struct deck_node *grid = deck_child(node, SCHEMA_GRID), *nodes = deck_child(node, SCHEMA_NODES);
+    const struct deck_node *disc = deck_child(node, SCHEMA_DISC_MESH);
     const struct deck_node *elements = deck_child(node, SCHEMA_ELEMENTS),
                            *initial = deck_child(node, SCHEMA_INITIAL);
     struct model *model = deck->model;
@@ -269,17 +295,23 @@ static int read_mesh(struct deck *deck, const struct deck_node *node, struct mod
     definition->formulation = formulation < 0 ? SOLID_FULL : formulations[formulation];
     definition->rho_infinity = deck_real(deck, node, "rho-infinity");
     definition->newton_tolerance = deck_real(deck, node, "newton-tolerance");
+    deck_read_rigid(deck, node, definition);
     size_t before = deck->n_problems;
     if (model->dim == 1)
         deck_error(deck, node, NULL, "meshes need a 2-D or 3-D deck");
-    else if (grid && (nodes || elements))
-        deck_error(deck, grid, NULL, "stands beside <nodes> or <elements>; a mesh is one or the other");
+    else if ((grid || disc) && (nodes || elements))
+        deck_error(deck, grid ? grid : disc, NULL,
+                   "stands beside <nodes> or <elements>; a mesh is one or the other");
+    else if (grid && disc)
+        deck_error(deck, disc, NULL, "stands beside a <grid>; a mesh is one or the other");
     else if (grid)
         read_grid(deck, grid, &definition->mesh);
+    else if (disc)
+        read_disc(deck, disc, &definition->mesh);
     else if (nodes && elements)
         read_inline(deck, node, &definition->mesh);
     else
-        deck_error(deck, node, NULL, "needs a <grid>, or <nodes> and <elements>");
+        deck_error(deck, node, NULL, "needs a <grid>, a <disc>, or <nodes> and <elements>");
     if (deck->n_problems > before || deck->status)
         return deck->status;
     for (const struct deck_node *set = deck_child(node, SCHEMA_SET); set; set = deck_next(set))

@@ -159,8 +159,11 @@ size_t deck_references(struct deck *deck, const struct deck_node *node, const ch
 /** Set chosen[k] for each word of a list of choices. */
 void deck_choices(struct deck *deck, const struct deck_node *node, const char *name, bool *chosen);
 
-/** One real per dimension; the rest 0. False if not given. */
+/** One real per dimension; the rest 0. About axes: z in 2-D, x, y, z in 3-D. The entries of a tensor: zz in
+ * 2-D, xx yy zz xy yz xz in 3-D. False if not given. */
 bool deck_vector(struct deck *deck, const struct deck_node *node, const char *name, double value[3]);
+bool deck_turn(struct deck *deck, const struct deck_node *node, const char *name, double value[3]);
+bool deck_inertia(struct deck *deck, const struct deck_node *node, const char *name, double value[3][3]);
 bool deck_cells(struct deck *deck, const struct deck_node *node, const char *name, int value[3]);
 size_t deck_integers(struct deck *deck, const struct deck_node *node, const char *name, long **values);
 size_t deck_points(struct deck *deck, const struct deck_node *node, const char *name, double (**points)[3]);
@@ -194,6 +197,7 @@ int deck_read_time(struct deck *deck);
 int deck_read_domain(struct deck *deck);
 int deck_read_materials(struct deck *deck);
 int deck_read_meshes(struct deck *deck);
+void deck_read_rigid(struct deck *deck, const struct deck_node *mesh, struct model_mesh *definition);
 void deck_read_facets(struct deck *deck, const struct deck_node *node, struct facets *facets);
 int deck_read_surfaces(struct deck *deck);
 int deck_read_fluid(struct deck *deck);

@@ -35,8 +35,8 @@ struct history_form {
 static const struct history_form forms[] = {
     {HISTORY_POINT, "mesh at"}, {HISTORY_FORCE, "surfaces"},
     {HISTORY_GAUGE, "at"},      {HISTORY_PROFILE, "from to points"},
-    {HISTORY_VOLUME, ""},       {HISTORY_ENERGY, ""},
-    {HISTORY_COUPLING, ""},
+    {HISTORY_VOLUME, ""},       {HISTORY_RIGID, "mesh"},
+    {HISTORY_ENERGY, ""},       {HISTORY_COUPLING, ""},
 };
 
 static bool needs(const struct history_form *form, const char *name)
@@ -88,6 +88,9 @@ static void read_history(struct deck *deck, const struct deck_node *node, struct
         history->n_surfaces = (int)deck_references(deck, node, "surfaces", "surface", model->surfaces,
                                                    model->n_surfaces, sizeof *model->surfaces, &surfaces);
     history->surfaces = surfaces;
+    if (form->kind == HISTORY_RIGID && history->mesh >= 0 && !model->meshes[history->mesh].rigid.present)
+        deck_error(deck, node, "mesh", "type=\"rigid\": mesh \"%s\" is no rigid body; use type=\"point\"",
+                   model->meshes[history->mesh].name);
     deck_vector(deck, node, form->kind == HISTORY_PROFILE ? "from" : "at", history->from);
     deck_vector(deck, node, "to", history->to);
     history->points = deck_integer(deck, node, "points");

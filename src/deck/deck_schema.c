@@ -170,7 +170,8 @@ static const struct schema_child meshes_children[] = {{SCHEMA_MESH, 0, 0}, {SCHE
 
 static const struct schema_attribute mesh_attributes[] = {
     {"name", SCHEMA_NAME, .required = true, .doc = "name to refer to; also names its output files"},
-    {"material", SCHEMA_REFERENCE, .required = true, .doc = "a <solid> of <materials>"},
+    {"material", SCHEMA_REFERENCE,
+     .doc = "a <solid> of <materials>; required unless a <rigid> says how dense the mesh is"},
     {"formulation", SCHEMA_CHOICE, .choices = "full|f-bar|eas", .fallback = "eas",
      .doc = "element technology: full integration, F-bar (nearly incompressible), enhanced assumed strain "
             "(bending); the latter two for quad4 and hex8"},
@@ -181,9 +182,9 @@ static const struct schema_attribute mesh_attributes[] = {
     {0}};
 
 static const struct schema_child mesh_children[] = {
-    {SCHEMA_GRID, 0, 1},       {SCHEMA_NODES, 0, 1},   {SCHEMA_ELEMENTS, 0, 1},
-    {SCHEMA_SET, 0, 0},        {SCHEMA_SUPPORT, 0, 0}, {SCHEMA_LOAD, 0, 0},
-    {SCHEMA_BODY_FORCE, 0, 1}, {SCHEMA_INITIAL, 0, 1}, {SCHEMA_ELEMENTS_END, 0, 0}};
+    {SCHEMA_GRID, 0, 1},       {SCHEMA_DISC_MESH, 0, 1}, {SCHEMA_NODES, 0, 1},       {SCHEMA_ELEMENTS, 0, 1},
+    {SCHEMA_RIGID, 0, 1},      {SCHEMA_SET, 0, 0},       {SCHEMA_SUPPORT, 0, 0},     {SCHEMA_LOAD, 0, 0},
+    {SCHEMA_BODY_FORCE, 0, 1}, {SCHEMA_INITIAL, 0, 1},   {SCHEMA_ELEMENTS_END, 0, 0}};
 
 #define SOLID_ELEMENTS "tri3|quad4|tet4|hex8|tri6|quad8|quad9|tet10|hex20|hex27"
 
@@ -195,6 +196,39 @@ static const struct schema_attribute grid_attributes[] = {
     {"type", SCHEMA_CHOICE, .choices = SOLID_ELEMENTS,
      .doc = "kind of all elements; default: quad4 or hex8; quadratic ones (tri6, quad8, quad9, tet10, hex20, "
             "hex27) need formulation=\"full\""},
+    {0}};
+
+static const struct schema_attribute disc_mesh_attributes[] = {
+    {"centre", SCHEMA_VECTOR, .required = true, .unit = "m", .doc = "centre"},
+    {"radius", SCHEMA_REAL, .required = true, .range = RANGE_POSITIVE, .unit = "m",
+     .doc = "radius; nodes of the rim lie on the circle and form the node set rim"},
+    {"cells", SCHEMA_INTEGER, .required = true, .range = RANGE_POSITIVE,
+     .doc = "number of elements across, at least 2: a square of cells x cells elements bent round, with 4 "
+            "cells of "
+            "equal sides on the rim"},
+    {"type", SCHEMA_CHOICE, .choices = "quad4|quad8|quad9", .fallback = "quad4",
+     .doc = "kind of all elements; the quadratic ones need formulation=\"full\""},
+    {0}};
+
+static const struct schema_attribute rigid_attributes[] = {
+    {"density", SCHEMA_REAL, .range = RANGE_POSITIVE, .unit = "kg/m3",
+     .doc =
+         "gives mass, centre of mass and inertia by the geometry of the mesh; default: that of the material"},
+    {"mass", SCHEMA_REAL, .range = RANGE_POSITIVE, .unit = "kg", .unit_2d = "kg/m",
+     .doc = "instead of a density, spread evenly over the mesh unless inertia is given"},
+    {"centre", SCHEMA_VECTOR, .unit = "m",
+     .doc = "centre of mass; needs inertia too; default: that of the mesh"},
+    {"inertia", SCHEMA_INERTIA, .unit = "kg m2", .unit_2d = "kg m",
+     .doc = "about the centre of mass: in 2-D that about z, in 3-D the entries xx yy zz xy yz xz of the "
+            "tensor (the "
+            "latter three negative integrals of products); default: that of the mesh"},
+    {"fixed", SCHEMA_CHOICES, .choices = "x|y|z|rotation-x|rotation-y|rotation-z", .fallback = "",
+     .doc = "directions in which the centre of mass is held, and axes through it, fixed in space, about "
+            "which the body "
+            "does not turn; in 2-D x, y, rotation-z"},
+    {"velocity", SCHEMA_VECTOR, .unit = "m/s", .doc = "of the centre of mass at time 0; default: 0"},
+    {"angular-velocity", SCHEMA_TURN, .unit = "rad/s",
+     .doc = "at time 0, in 2-D about z, in 3-D about x, y, z; default: 0"},
     {0}};
 
 static const struct schema_attribute elements_attributes[] = {
@@ -211,7 +245,7 @@ static const struct schema_child set_children[] = {{SCHEMA_BOX, 0, 1}, {SCHEMA_E
 
 static const struct schema_attribute support_attributes[] = {
     {"set", SCHEMA_REFERENCE, .required = true,
-     .doc = "a node set of the mesh; a grid has x- x+ y- y+ (z- z+)"},
+     .doc = "a node set of the mesh; a grid has x- x+ y- y+ (z- z+), a disc has rim"},
     {"fixed", SCHEMA_CHOICES, .choices = "x|y|z", .fallback = "",
      .doc = "directions in which the nodes are held"},
     {0}};
@@ -430,15 +464,19 @@ static const struct schema_attribute fields_attributes[] = {
 
 static const struct schema_attribute history_attributes[] = {
     {"name", SCHEMA_NAME, .required = true, .doc = "names its file history/NAME.csv"},
-    {"type", SCHEMA_CHOICE, .required = true, .choices = "point|force|gauge|profile|volume|energy|coupling",
+    {"type", SCHEMA_CHOICE, .required = true,
+     .choices = "point|force|gauge|profile|volume|rigid|energy|coupling",
      .doc = "point: displacement and velocity of a material point; force: force and moment on surfaces; "
             "gauge: fluid "
             "fields at a place; profile: the same along a line; volume: number, mass and volume of fluid "
             "particles; "
+            "rigid: centre of mass, rotation (2-D: angle turned so far; 3-D: rotation vector of the "
+            "orientation), "
+            "velocities, force and moment about the centre of a rigid body; "
             "energy: kinetic and elastic energies; coupling: iterations and residual of each step"},
     {"every", SCHEMA_REAL, .range = RANGE_NOT_NEGATIVE, .unit = "s", .fallback = "0",
      .doc = "time between rows; 0: every step"},
-    {"mesh", SCHEMA_REFERENCE, .doc = "point: the mesh"},
+    {"mesh", SCHEMA_REFERENCE, .doc = "point, rigid: the mesh"},
     {"at", SCHEMA_VECTOR, .unit = "m", .doc = "point: undeformed place; gauge: place"},
     {"surfaces", SCHEMA_REFERENCES, .doc = "force: the surfaces"},
     {"from", SCHEMA_VECTOR, .unit = "m", .doc = "profile: first point"},
@@ -500,12 +538,20 @@ static const struct schema_element elements[SCHEMA_ELEMENTS_END] =
      [SCHEMA_POINT_LIST] = {"points", "points", "particles at given places",
                             .attributes = point_list_attributes,
                             .text = "coordinates, dim numbers for each point, in m"},
-     [SCHEMA_MESHES] = {"meshes", "meshes", "deformable solids", .children = meshes_children},
-     [SCHEMA_MESH] = {"mesh", "mesh", "a solid of finite elements: a <grid>, or <nodes> and <elements>",
-                      .attributes = mesh_attributes, .children = mesh_children},
+     [SCHEMA_MESHES] = {"meshes", "meshes", "solids", .children = meshes_children},
+     [SCHEMA_MESH] =
+         {"mesh", "mesh",
+          "a solid of finite elements: a <grid>, a <disc>, or <nodes> and <elements>; deformable, or with "
+          "<rigid> a rigid body",
+          .attributes = mesh_attributes, .children = mesh_children},
      [SCHEMA_GRID] = {"grid", "grid",
                       "a box cut into elements, quad4 (2-D) or hex8 (3-D) unless told otherwise",
                       .attributes = grid_attributes},
+     [SCHEMA_DISC_MESH] = {"disc", "disc-mesh", "a disc of quads (2-D)", .attributes = disc_mesh_attributes},
+     [SCHEMA_RIGID] =
+         {"rigid", "rigid",
+          "makes the mesh a rigid body that forces move: translation and rotation instead of elements",
+          .attributes = rigid_attributes},
      [SCHEMA_NODES] = {"nodes", "nodes", "places of nodes, numbered from 0",
                        .text = "coordinates, dim numbers for each node, in m"},
      [SCHEMA_ELEMENTS] =

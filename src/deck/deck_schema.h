@@ -18,6 +18,8 @@ enum schema_kind {
     SCHEMA_INTEGERS,    /**< list of whole numbers */
     SCHEMA_VECTOR,      /**< one real per dimension */
     SCHEMA_CELLS,       /**< one whole number per dimension */
+    SCHEMA_TURN,        /**< reals about axes: one in 2-D, three in 3-D */
+    SCHEMA_INERTIA,     /**< the entries of a symmetric tensor about axes: one in 2-D, six in 3-D */
     SCHEMA_POINTS,      /**< any number of vectors */
     SCHEMA_EXPRESSION,  /**< expression in variables */
     SCHEMA_EXPRESSIONS, /**< one expression per dimension */
@@ -68,8 +70,10 @@ enum schema_id {
     SCHEMA_MESHES,
     SCHEMA_MESH,
     SCHEMA_GRID,
+    SCHEMA_DISC_MESH,
     SCHEMA_NODES,
     SCHEMA_ELEMENTS,
+    SCHEMA_RIGID,
     SCHEMA_SET,
     SCHEMA_SUPPORT,
     SCHEMA_LOAD,

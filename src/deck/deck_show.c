@@ -100,6 +100,8 @@ static void print_attribute(struct deck *deck, const struct deck_node *node,
         break;
     case SCHEMA_VECTOR:
     case SCHEMA_CELLS:
+    case SCHEMA_TURN:
+    case SCHEMA_INERTIA:
     case SCHEMA_POINTS:
     case SCHEMA_INTEGERS:
     case SCHEMA_EXPRESSIONS:

@@ -176,6 +176,8 @@ bool deck_mentions(struct deck *deck, const struct deck_node *node, size_t attri
         return entry_mentions(text, name);
     case SCHEMA_VECTOR:
     case SCHEMA_CELLS:
+    case SCHEMA_TURN:
+    case SCHEMA_INERTIA:
     case SCHEMA_POINTS:
     case SCHEMA_INTEGERS:
     case SCHEMA_EXPRESSIONS:
@@ -402,29 +404,57 @@ size_t deck_references(struct deck *deck, const struct deck_node *node, const ch
     return count;
 }
 
-/** A list with another number of entries than dimensions. */
-static void refuse_count(struct deck *deck, const struct deck_node *node, const char *name, size_t n)
+/** A list with another number of entries, @p n, than @p wanted in this dimension. */
+static void refuse_count(struct deck *deck, const struct deck_node *node, const char *name, size_t wanted,
+                         size_t n)
 {
-    deck_error(deck, node, name, "%s=\"%.80s\": a %d-D deck needs %d %s separated by blanks, here %s %zu",
-               name, deck_text(node, name), deck->model->dim, deck->model->dim,
-               deck->model->dim > 1 ? "entries" : "entry", n == 1 ? "is" : "are", n);
+    deck_error(deck, node, name, "%s=\"%.80s\": a %d-D deck needs %zu %s separated by blanks, here %s %zu",
+               name, deck_text(node, name), deck->model->dim, wanted, wanted > 1 ? "entries" : "entry",
+               n == 1 ? "is" : "are", n);
 }
 
-bool deck_vector(struct deck *deck, const struct deck_node *node, const char *name, double value[3])
+/** @p wanted reals. */
+static bool read_reals(struct deck *deck, const struct deck_node *node, const char *name, size_t wanted,
+                       double *value)
 {
-    value[0] = value[1] = value[2] = 0.0;
     char **entries = NULL, *text = deck_word(deck, node, name);
     if (!text)
         return false;
     size_t n = deck_split(deck, text, &entries);
-    if (n != (size_t)deck->model->dim)
-        refuse_count(deck, node, name, n);
+    if (n != wanted)
+        refuse_count(deck, node, name, wanted, n);
     else
         for (size_t d = 0; d < n; d++)
             value[d] = evaluate_entry(deck, node, attribute_of(node, name), entries[d]);
     memory_free(entries);
     memory_free(text);
     return true;
+}
+
+bool deck_vector(struct deck *deck, const struct deck_node *node, const char *name, double value[3])
+{
+    value[0] = value[1] = value[2] = 0.0;
+    return read_reals(deck, node, name, (size_t)deck->model->dim, value);
+}
+
+bool deck_turn(struct deck *deck, const struct deck_node *node, const char *name, double value[3])
+{
+    const bool space = deck->model->dim == 3;
+    value[0] = value[1] = value[2] = 0.0;
+    return read_reals(deck, node, name, space ? 3 : 1, space ? value : &value[2]);
+}
+
+bool deck_inertia(struct deck *deck, const struct deck_node *node, const char *name, double value[3][3])
+{
+    const bool space = deck->model->dim == 3;
+    double entries[6] = {0.0}; /* xx yy zz xy yz xz */
+    const bool given = read_reals(deck, node, name, space ? 6 : 1, space ? entries : &entries[2]);
+    for (int d = 0; d < 3; d++) {
+        const int e = (d + 1) % 3;
+        value[d][d] = entries[d];
+        value[d][e] = value[e][d] = entries[3 + d];
+    }
+    return given;
 }
 
 bool deck_cells(struct deck *deck, const struct deck_node *node, const char *name, int value[3])
@@ -435,7 +465,7 @@ bool deck_cells(struct deck *deck, const struct deck_node *node, const char *nam
         return false;
     size_t n = deck_split(deck, text, &entries);
     if (n != (size_t)deck->model->dim)
-        refuse_count(deck, node, name, n);
+        refuse_count(deck, node, name, (size_t)deck->model->dim, n);
     else
         for (size_t d = 0; d < n; d++)
             value[d] = (int)whole_entry(deck, node, attribute_of(node, name), entries[d]);
@@ -482,7 +512,7 @@ bool deck_expressions(struct deck *deck, const struct deck_node *node, const cha
         return false;
     size_t n = deck_split(deck, text, &entries);
     if (n != (size_t)deck->model->dim)
-        refuse_count(deck, node, name, n);
+        refuse_count(deck, node, name, (size_t)deck->model->dim, n);
     else
         for (size_t d = 0; d < n; d++)
             value[d] = deck_compile(deck, node, attribute_of(node, name), entries[d]);

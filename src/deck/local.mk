@@ -15,6 +15,7 @@ libskerry_la_SOURCES += \
     src/deck/deck_parameters.c \
     src/deck/deck_position.c src/deck/deck_position.h \
     src/deck/deck_resume.c \
+    src/deck/deck_rigid.c \
     src/deck/deck_schema.c src/deck/deck_schema.h \
     src/deck/deck_show.c \
     src/deck/deck_surface.c \

@@ -63,6 +63,13 @@ struct mesh {
 int mesh_create_grid(struct mesh *mesh, int dim, const double lower[3], const double upper[3],
                      const int cells[3]);
 
+/** Disc in 2-D of quad4, quad8 or quad9 elements: a square of cells x cells (at least 2) of them bent round.
+ * Its nodes lie on rings: halfway between the circle of the ring and the square inscribed in it, nearer to
+ * the circle the larger the ring; those of the outermost are on the circle, evenly spread over 4 cells sides,
+ * and form the node set "rim". Returns a status. */
+int mesh_create_disc(struct mesh *mesh, enum element_type type, const double centre[3], double radius,
+                     int cells);
+
 /** Add the set of all nodes in the box [lower, upper] (widened by @p tolerance). STATUS_DECK (not reported)
  * if it is empty. */
 int mesh_add_set_box(struct mesh *mesh, const char *name, const double lower[3], const double upper[3],
@@ -76,6 +83,11 @@ const struct node_set *mesh_find_set(const struct mesh *mesh, const char *name);
  * nodes follow the old ones, in the middle of edges, faces and cells, and belong to the sets that all corners
  * around them belong to. STATUS_DECK for any other type (reported); the mesh may then be reset. */
 int mesh_convert(struct mesh *mesh, enum element_type type);
+
+/** Volume of the mesh (2-D: area), and the integrals of x and of x_i x_j over it, x from the place @p about:
+ * exact for all element types, curved ones too. */
+void mesh_moments(const struct mesh *mesh, const double about[3], double *volume, double first[3],
+                  double second[3][3]);
 
 /** Determinant of the map from natural coordinates of element @p e at @p xi. */
 double mesh_jacobian(const struct mesh *mesh, size_t e, const double xi[3]);

@@ -242,3 +242,14 @@ bool mesh_search_find(const struct mesh_search *search, const double X[3], size_
     }
     return best < INFINITY;
 }
+
+int mesh_search_once(const struct mesh *mesh, const double X[3], int *element, double xi[3])
+{
+    struct mesh_search search;
+    size_t found;
+    CALL(mesh_search_init(&search, mesh, 0.0));
+    const bool inside = mesh_search_find(&search, X, &found, xi);
+    mesh_search_reset(&search);
+    *element = inside ? (int)found : -1;
+    return inside ? STATUS_OK : STATUS_DECK;
+}

@@ -25,4 +25,7 @@ void mesh_search_reset(struct mesh_search *search);
  * the mesh. On the common side of several elements rounding decides which it is. */
 bool mesh_search_find(const struct mesh_search *search, const double X[3], size_t *element, double xi[3]);
 
+/** The same for one place only, which must lie in the mesh: STATUS_DECK (not reported) when it does not. */
+int mesh_search_once(const struct mesh *mesh, const double X[3], int *element, double xi[3]);
+
 #endif

@@ -113,10 +113,25 @@ struct model_load {
     struct location where;
 };
 
+/** What makes a mesh a rigid body. Directions: x, y, z, then rotations about them through the centre of mass;
+ * in 2-D those out of the plane are fixed. */
+struct model_rigid {
+    bool present;
+    bool has_mass, has_centre, has_inertia;
+    double density;       /**< kg/m^3; used unless has_mass */
+    double mass;          /**< kg (2-D: kg/m) */
+    double centre[3];     /**< of mass, m; otherwise that of the volume */
+    double inertia[3][3]; /**< about the centre, kg m^2 (2-D: kg m, zz only); otherwise that of the volume */
+    bool fixed[6];
+    double velocity[3], angular_velocity[3]; /**< at time 0, m/s and rad/s */
+    struct location where;
+};
+
 struct model_mesh {
     char *name;
     struct mesh mesh;
-    int material; /**< index into solid_materials */
+    int material; /**< index into solid_materials; rigid bodies may have none: -1 */
+    struct model_rigid rigid;
     enum solid_formulation formulation;
     double rho_infinity;     /**< of the generalised-alpha method, 0..1 */
     double newton_tolerance; /**< relative residual of Newton's method */
@@ -212,6 +227,7 @@ enum history_kind {
     HISTORY_GAUGE,   /**< Shepard-corrected fluid fields at a place (eq. 14) */
     HISTORY_PROFILE, /**< the same along a line, rows t,s,x,y,z,values */
     HISTORY_VOLUME,  /**< number, mass, volume of fluid particles, extreme densities */
+    HISTORY_RIGID,   /**< place, rotation, velocities, force and moment of a rigid body */
     HISTORY_ENERGY,  /**< kinetic and elastic energies */
     HISTORY_COUPLING /**< iterations, residual of each step */
 };
@@ -220,7 +236,7 @@ struct model_history {
     char *name;
     enum history_kind kind;
     double every; /**< s; 0: every step */
-    int mesh;     /**< point */
+    int mesh;     /**< point, rigid */
     int n_surfaces;
     int *surfaces;         /**< force */
     double from[3], to[3]; /**< point, gauge: from; profile: both */

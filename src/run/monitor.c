@@ -71,6 +71,44 @@ static int columns_of(const struct monitor *monitor, int dim, const char *const 
                                           "rho_min [kg/m^3]",
                                           "rho_max [kg/m^3]",
                                           "zone particles [-]"};
+    static const char *const rigid2[] = {"t [s]",
+                                         "x [m]",
+                                         "y [m]",
+                                         "z [m]",
+                                         "rotation x [rad]",
+                                         "rotation y [rad]",
+                                         "rotation z [rad]",
+                                         "u_x [m/s]",
+                                         "u_y [m/s]",
+                                         "u_z [m/s]",
+                                         "omega_x [rad/s]",
+                                         "omega_y [rad/s]",
+                                         "omega_z [rad/s]",
+                                         "F_x [N/m]",
+                                         "F_y [N/m]",
+                                         "F_z [N/m]",
+                                         "M_x [N m/m]",
+                                         "M_y [N m/m]",
+                                         "M_z [N m/m]"};
+    static const char *const rigid3[] = {"t [s]",
+                                         "x [m]",
+                                         "y [m]",
+                                         "z [m]",
+                                         "rotation x [rad]",
+                                         "rotation y [rad]",
+                                         "rotation z [rad]",
+                                         "u_x [m/s]",
+                                         "u_y [m/s]",
+                                         "u_z [m/s]",
+                                         "omega_x [rad/s]",
+                                         "omega_y [rad/s]",
+                                         "omega_z [rad/s]",
+                                         "F_x [N]",
+                                         "F_y [N]",
+                                         "F_z [N]",
+                                         "M_x [N m]",
+                                         "M_y [N m]",
+                                         "M_z [N m]"};
     static const char *const energy2[] = {"t [s]", "fluid kinetic [J/m]", "solid kinetic [J/m]",
                                           "elastic [J/m]", "work on solids [J/m]"};
     static const char *const energy3[] = {"t [s]", "fluid kinetic [J]", "solid kinetic [J]", "elastic [J]",
@@ -93,6 +131,9 @@ static int columns_of(const struct monitor *monitor, int dim, const char *const 
     case HISTORY_VOLUME:
         *columns = deep ? volume3 : volume2;
         return sizeof volume2 / sizeof *volume2;
+    case HISTORY_RIGID:
+        *columns = deep ? rigid3 : rigid2;
+        return sizeof rigid2 / sizeof *rigid2;
     case HISTORY_ENERGY:
         *columns = deep ? energy3 : energy2;
         return sizeof energy2 / sizeof *energy2;
@@ -247,6 +288,20 @@ static int volume_row(const struct monitors *monitors, struct monitor *monitor, 
     return history_row(&monitor->file, row);
 }
 
+/** Inside a step of the solid the body goes on with its accelerations. */
+static int rigid_row(const struct monitors *monitors, struct monitor *monitor, double t)
+{
+    const struct coupling *coupling = monitors->coupling;
+    struct solid_rigid rigid;
+    double row[19] = {t};
+    solid_rigid(coupling->parts.solids[monitor->definition->mesh], coupling->solids_behind, &rigid);
+    const double *const parts[] = {rigid.centre,           rigid.rotation, rigid.velocity,
+                                   rigid.angular_velocity, rigid.force,    rigid.moment};
+    for (int p = 0; p < 6; ++p)
+        memcpy(row + 1 + 3 * p, parts[p], 3 * sizeof *row);
+    return history_row(&monitor->file, row);
+}
+
 static int energy_row(const struct monitors *monitors, struct monitor *monitor, double t)
 {
     const struct coupling_parts *parts = &monitors->coupling->parts;
@@ -287,6 +342,8 @@ static int monitor_write(const struct monitors *monitors, struct monitor *monito
         return profile_rows(monitors, monitor, t);
     case HISTORY_VOLUME:
         return volume_row(monitors, monitor, t);
+    case HISTORY_RIGID:
+        return rigid_row(monitors, monitor, t);
     case HISTORY_ENERGY:
         return energy_row(monitors, monitor, t);
     case HISTORY_COUPLING: {

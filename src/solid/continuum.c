@@ -13,13 +13,8 @@ enum { GMRES_DIRECTIONS = 30 };
 
 static bool takes(const struct model_mesh *mesh)
 {
-    return element_dim(mesh->mesh.type) >= 2;
+    return element_dim(mesh->mesh.type) >= 2 && !mesh->rigid.present;
 }
-
-/** Report a mistake of the mesh in the deck. */
-#define CHECK_MESH(condition, where_, format, ...)                                                           \
-    CHECK((condition), STATUS_DECK, "%s:%d:%d: <mesh name=\"%s\">: " format, model->path, (where_).line,     \
-          (where_).column, definition->name, __VA_ARGS__)
 
 static int check_material(const struct model *model, const struct model_mesh *definition)
 {

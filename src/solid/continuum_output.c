@@ -128,15 +128,7 @@ void continuum_energies(const struct solid *solid, struct solid_energies *energi
 int continuum_locate(const struct solid *solid, const double X[3], struct solid_place *place)
 {
     const struct continuum *continuum = solid->data;
-    struct mesh_search search;
-    size_t element;
-    CALL(mesh_search_init(&search, continuum->mesh, 0.0));
-    const bool found = mesh_search_find(&search, X, &element, place->xi);
-    mesh_search_reset(&search);
-    if (!found)
-        return STATUS_DECK;
-    place->element = (int)element;
-    return 0;
+    return mesh_search_once(continuum->mesh, X, &place->element, place->xi);
 }
 
 void continuum_evaluate(const struct solid *solid, const struct solid_place *place, double d[3], double v[3],

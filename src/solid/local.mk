@@ -8,6 +8,9 @@ libskerry_la_SOURCES += \
 	src/solid/continuum_step.c \
 	src/solid/generalized_alpha.c \
 	src/solid/generalized_alpha.h \
+	src/solid/rigid_body.c \
+	src/solid/rigid_body.h \
+	src/solid/rigid_body_step.c \
 	src/solid/solid.c \
 	src/solid/solid.h \
 	src/solid/solid_list.h \

@@ -151,6 +151,13 @@ void solid_energies(const struct solid *solid, struct solid_energies *energies)
     solid->type->energies(solid, energies);
 }
 
+bool solid_rigid(const struct solid *solid, double ahead, struct solid_rigid *rigid)
+{
+    if (solid->type->rigid)
+        solid->type->rigid(solid, ahead, rigid);
+    return solid->type->rigid;
+}
+
 int solid_locate(const struct solid *solid, const double X[3], struct solid_place *place)
 {
     return solid->type->locate(solid, X, place);

@@ -6,11 +6,22 @@
 #include "model/model.h"
 #include "model/surface.h"
 
+#include <stdbool.h>
+
 struct solid;
 
 struct solid_energies {
     double kinetic, elastic; /**< J (2-D: J/m) */
     double external;         /**< work done on the solid so far by loads and supports */
+};
+
+/** A rigid body at one time. */
+struct solid_rigid {
+    double centre[3];   /**< place of the centre of mass, m */
+    double velocity[3]; /**< of that, m/s */
+    double rotation[3]; /**< 2-D: angle turned so far about z; 3-D: rotation vector, at most pi long; rad */
+    double angular_velocity[3]; /**< rad/s */
+    double force[3], moment[3]; /**< of all loads, about the centre, N and N m (2-D: N/m, N) */
 };
 
 /** A material point of a solid. */
@@ -74,6 +85,10 @@ int solid_correct(struct solid *solid, bool added_mass);
 int solid_accept(struct solid *solid);
 
 void solid_energies(const struct solid *solid, struct solid_energies *energies);
+
+/** A rigid body as it is, or would be after the time @p ahead with the accelerations it has; false: the solid
+ * is none. */
+bool solid_rigid(const struct solid *solid, double ahead, struct solid_rigid *rigid);
 
 /** Find the material point at reference place @p X (STATUS_DECK, not reported, when it lies outside the
  * mesh). */

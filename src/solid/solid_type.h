@@ -2,8 +2,14 @@
 #ifndef SOLID_SOLID_TYPE_H
 #define SOLID_SOLID_TYPE_H
 
+#include "base/error.h"
 #include "solid/attachment.h"
 #include "solid/solid.h"
+
+/** For checks: report a mistake of the mesh @c definition in the deck of @c model. */
+#define CHECK_MESH(condition, where_, format, ...)                                                           \
+    CHECK((condition), STATUS_DECK, "%s:%d:%d: <mesh name=\"%s\">: " format, model->path, (where_).line,     \
+          (where_).column, definition->name, __VA_ARGS__)
 
 /** A discretisation of solids; the functions do what their namesakes in solid.h say. */
 struct solid_type {
@@ -24,6 +30,8 @@ struct solid_type {
     int (*correct)(struct solid *solid, bool added_mass);
     int (*accept)(struct solid *solid);
     void (*energies)(const struct solid *solid, struct solid_energies *energies);
+    /** NULL: it is no rigid body. */
+    void (*rigid)(const struct solid *solid, double ahead, struct solid_rigid *rigid);
     int (*locate)(const struct solid *solid, const double X[3], struct solid_place *place);
     void (*evaluate)(const struct solid *solid, const struct solid_place *place, double d[3], double v[3],
                      double a[3]);

@@ -23,3 +23,9 @@ check_PROGRAMS += tests/solid/test_coupling
 tests_solid_test_coupling_SOURCES = tests/solid/test_coupling.c tests/solid/bench.h
 tests_solid_test_coupling_LDADD = $(test_libs)
 TESTS += tests/solid/test_coupling
+
+check_PROGRAMS += tests/solid/test_rigid_body
+tests_solid_test_rigid_body_SOURCES = tests/solid/test_rigid_body.c tests/solid/bench.h
+tests_solid_test_rigid_body_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
+tests_solid_test_rigid_body_LDADD = $(test_libs)
+TESTS += tests/solid/test_rigid_body
