@@ -54,6 +54,6 @@ int fluid_wall_forces(struct fluid *fluid, size_t b)
         return status;
     for (size_t s = 0; s < boundary->n_surfaces; ++s)
         surface_clear_load(boundary->surfaces[s]);
-    boundary->type->load(boundary, &fluid->view);
+    boundary_load(boundary, &fluid->view);
     return 0;
 }

@@ -115,6 +115,13 @@ int boundary_state(struct boundary *boundary, struct field_list *list);
 /** Evaluate the surfaces at view->t, then prepare. */
 int boundary_prepare(struct boundary *boundary, const struct fluid_view *view, bool again);
 
+/** Loads of the surfaces: the reactions, and the part of the viscous stress at a turning or stretched wall
+ * that the forces between particles have not. Their sum is eta laplace(u), with the traction eta du/dn; a
+ * Newtonian fluid's has eta (grad u)^T n besides. Over a closed surface that adds up to no force, but to a
+ * moment of -2 eta volume x angular velocity: without it a cylinder that turns freely in a shear flow
+ * turns 1.6 times too fast. */
+void boundary_load(struct boundary *boundary, const struct fluid_view *view);
+
 /** Room for @p n near particles (near, kernel_sum). */
 int boundary_reserve_near(struct boundary *boundary, size_t n);
 

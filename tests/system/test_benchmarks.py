@@ -70,6 +70,13 @@ def isochoric_box(output):
     return {"outside": 400 - len(inside), "mean |rho/rho0 - 1|": sum(inside) / len(inside)}
 
 
+def cylinder_shear_flow(output):
+    """It is carried along and turned at half the shear rate of 2/s; from the middle of the upper half it goes down."""
+    body = output.history("cylinder")
+    return {"turned": body["rotation z"][-1], "carried": body["x"][-1] - 0.002, "risen": body["y"][-1] - 0.0075,
+            "mean iterations": output.summary["iterations_mean"]}
+
+
 def turek_hron_fsi2(output):
     tip, force = output.history("tip"), output.history("force")
     drag = skerry_signal.window(force["t"], 1.5, 2.0, force["F_x"])[1]
@@ -88,6 +95,9 @@ CASES = {
     "isochoric-box": ([], isochoric_box, {"outside": (0, 0), "mean |rho/rho0 - 1|": (0, 0.003)}),
     "isochoric-box of fixed particles": (["--wall", "fixed-particles"], isochoric_box,
                                          {"outside": (20, 60), "mean |rho/rho0 - 1|": (0.05, 0.1)}),
+    "cylinder-shear-flow": (["--dx", "0.0005", "--start", "couette", "--end", "2"], cylinder_shear_flow,
+                            {"turned": (-2, -1.2), "carried": (0.007, 0.011), "risen": (-0.0006, 0),
+                             "mean iterations": (1, 3)}),
     "turek-hron-fsi2": (["--dx", "0.41/30", "--end", "2"], turek_hron_fsi2,
                         {"drag for 1.5 <= t <= 2": (0.1, 0.145), "largest |u_y|": (0.004, 0.02),
                          "mean iterations": (2, 4)}),

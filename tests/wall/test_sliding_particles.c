@@ -285,6 +285,78 @@ static void test_rotating_circle(void **state)
     scene_end(&scene);
 }
 
+/** A closed cube with the fluid inside. */
+static void box_3d(struct scene *scene, double half, double warp)
+{
+    double points[8][3];
+    static const int32_t nodes[6][4] = {{1, 3, 2, 0}, {6, 7, 5, 4}, {4, 5, 1, 0},
+                                        {3, 7, 6, 2}, {2, 6, 4, 0}, {5, 7, 3, 1}};
+    for (int c = 0; c < 8; ++c)
+        for (int k = 0; k < 3; ++k)
+            points[c][k] = (c >> k & 1 ? half : -half) * (c == 5 ? 1.0 + warp : 1.0);
+    scene_facets(scene, 8, (const double(*)[3])points, 6, nodes);
+}
+
+/** What boundary_load adds to the reactions: force and moment of surface 0 about @p centre. */
+static void turning_load(struct scene *scene, const double centre[3], double force[3], double moment[3])
+{
+    double reaction[3], turning[3], total[3];
+    scene_forces(scene, total);
+    surface_total_load(scene->surface, centre, reaction, turning);
+    surface_clear_load(scene->surface);
+    boundary_load(scene->boundary, &scene->view);
+    surface_total_load(scene->surface, centre, force, moment);
+    for (int k = 0; k < 3; ++k) {
+        force[k] -= reaction[k];
+        moment[k] -= turning[k];
+    }
+}
+
+/** The viscous stress that pair forces leave out resists turning by 2 eta volume x angular velocity, about
+ * any centre, and adds up to no force; a surface that goes straight on has none. */
+static void test_turning(void **state)
+{
+    (void)state;
+    static const double centre[3] = {0.7, -1.1, 0.4}, axis[3] = {2.0 / 7.0, 3.0 / 7.0, -6.0 / 7.0};
+    for (int shape = 0; shape < 4; ++shape) {
+        struct scene scene;
+        double force[3], moment[3], volume;
+        scene_start(&scene, shape < 2 ? 2 : 3, -20.0, 20.0, false);
+        scene_add(&scene, 0.3, 5.3, 0.2);
+        scene_add(&scene, -0.4, -5.4, 0.1);
+        struct motion *motion = &scene.surface_definition.motion;
+        motion->kind = MOTION_RIGID;
+        memcpy(motion->axis, axis, sizeof axis);
+        if (shape < 2)
+            memcpy(motion->axis, (double[3]){0.0, 0.0, 1.0}, sizeof axis);
+        motion->centre[0] = 0.3;
+        motion->angular_velocity = expression_constant(-0.7);
+        motion->velocity[1] = expression_constant(0.9);
+        if (shape == 0 || shape == 2) {
+            scene.surface_definition.kind = shape ? SURFACE_SPHERE : SURFACE_CYLINDER;
+            scene.surface_definition.radius = 5.0;
+            volume = shape ? 4.0 / 3.0 * PI * 125.0 : 25.0 * PI;
+        } else if (shape == 1) { // counter-clockwise: the solid lies within
+            scene_chain(&scene, 4,
+                        (const double[4][3]){{-3.0, -5.0, 0}, {4.0, -5.0, 0}, {4.0, 5.0, 0}, {-2.0, 5.0, 0}},
+                        true);
+            volume = 65.0;
+        } else { // the fluid is within: the normal, and with it the sign, is turned round
+            box_3d(&scene, 6.0, 0.0);
+            volume = -12.0 * 12.0 * 12.0;
+        }
+        scene_build(&scene, CORNERS_SHARES);
+        scene_fill(&scene);
+        turning_load(&scene, centre, force, moment);
+        for (int k = 0; k < 3; ++k) {
+            assert_true(fabs(force[k]) < 1e-12);
+            assert_true(fabs(moment[k] + 2.0 * 0.1 * volume * -0.7 * motion->axis[k]) < 1e-9);
+        }
+        motion_reset(motion);
+        scene_end(&scene);
+    }
+}
+
 /** One quad per plate and periodic sides: every particle of a layer sees the same wall. */
 static void test_periodic_plate(void **state)
 {
@@ -370,18 +442,6 @@ static void test_added_mass(void **state)
     memory_free(load);
     memory_free(product);
     scene_end(&scene);
-}
-
-/** A closed cube with the fluid inside. */
-static void box_3d(struct scene *scene, double half, double warp)
-{
-    double points[8][3];
-    static const int32_t nodes[6][4] = {{1, 3, 2, 0}, {6, 7, 5, 4}, {4, 5, 1, 0},
-                                        {3, 7, 6, 2}, {2, 6, 4, 0}, {5, 7, 3, 1}};
-    for (int c = 0; c < 8; ++c)
-        for (int k = 0; k < 3; ++k)
-            points[c][k] = (c >> k & 1 ? half : -half) * (c == 5 ? 1.0 + warp : 1.0);
-    scene_facets(scene, 8, (const double(*)[3])points, 6, nodes);
 }
 
 static void test_put_back(void **state)
@@ -661,14 +721,14 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat_is_paper),   cmocka_unit_test(test_linear_fields),
-        cmocka_unit_test(test_conservation),    cmocka_unit_test(test_subdivision),
-        cmocka_unit_test(test_threads),         cmocka_unit_test(test_circle),
-        cmocka_unit_test(test_rotating_circle), cmocka_unit_test(test_periodic_plate),
-        cmocka_unit_test(test_added_mass),      cmocka_unit_test(test_put_back),
-        cmocka_unit_test(test_warped),          cmocka_unit_test(test_layers_are_blocks),
-        cmocka_unit_test(test_again),           cmocka_unit_test(test_one_dimension),
-        cmocka_unit_test(test_check),
+        cmocka_unit_test(test_flat_is_paper),     cmocka_unit_test(test_linear_fields),
+        cmocka_unit_test(test_conservation),      cmocka_unit_test(test_subdivision),
+        cmocka_unit_test(test_threads),           cmocka_unit_test(test_circle),
+        cmocka_unit_test(test_rotating_circle),   cmocka_unit_test(test_turning),
+        cmocka_unit_test(test_periodic_plate),    cmocka_unit_test(test_added_mass),
+        cmocka_unit_test(test_put_back),          cmocka_unit_test(test_warped),
+        cmocka_unit_test(test_layers_are_blocks), cmocka_unit_test(test_again),
+        cmocka_unit_test(test_one_dimension),     cmocka_unit_test(test_check),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
