@@ -2,6 +2,10 @@ nobase_dist_pkgdata_DATA += \
 	decks/cylinder-2d2/README.md \
 	decks/cylinder-2d2/cylinder-2d2.xml \
 	decks/cylinder-2d2/schaefer_turek_bounds.csv \
+	decks/cylinder-shear-flow/README.md \
+	decks/cylinder-shear-flow/couette_feng_michaelides2002_dimensional.csv \
+	decks/cylinder-shear-flow/cylinder-shear-flow.png \
+	decks/cylinder-shear-flow/cylinder-shear-flow.xml \
 	decks/exact-hydrostatic-3d/README.md \
 	decks/exact-hydrostatic-3d/exact-hydrostatic-3d.xml \
 	decks/exact-hydrostatic-3d/exact_hydrostatic_3d.csv \

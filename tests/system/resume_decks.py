@@ -274,6 +274,17 @@ def alone(dim, element, formulation, support, law=LAWS[0]):
             % " ".join(["0.52", "0.35", "0.2"][:dim]))
 
 
+def floating(dim, part):
+    """A rigid body in the fluid, free to go and to turn, or held in part."""
+    text = channel(dim, dict(part, ends="periodic", element=ELEMENTS[dim][0], solid="eas"))
+    mesh = re.search(r'<mesh name="beam".*?</mesh>', text, re.S).group(0)
+    grid = re.search(r"<grid.*?/>", mesh).group(0)
+    body = '<mesh name="beam">\n  %s\n  <rigid density="3"%s angular-velocity="%s"/>\n</mesh>' % (
+        grid, ' fixed="y"' if part["held"] else "", " ".join(["-1.5"] if dim == 2 else ["0.4", "0.3", "-1.5"]))
+    text = text.replace(mesh, body).replace(' exclude="root"', "").replace(' formulation="eas"', "")
+    return text.replace("</output>", '  <history name="body" type="rigid" mesh="beam"/>\n</output>', 1)
+
+
 ELEMENTS = {2: ("quad4", "tri3"), 3: ("hex8", "tet4")}
 
 
@@ -338,6 +349,9 @@ def all_decks(skerry, everything):
                     yield named(kind, make, **dict(first, wet=wet, ends=end, element=element, solid="full"))
             for wall in treatments:
                 yield named("driven%d" % dim, lambda part, d=dim: driven(d, part), wall=wall, element=kinds[dim][-1], **common)
+            for scheme, acceleration, wet, held in itertools.product(schemes, accelerations, treatments, (False, True)):
+                yield named("floating%d" % dim, lambda part, d=dim: floating(d, part), **dict(
+                    first, wet=wet, scheme=scheme, acceleration=acceleration, element=None, solid=None, held=held))
             for law in laws[1:]:
                 yield named(kind, make, **dict(first, law=law))
             for wall, wet, corners, gradient in itertools.product(

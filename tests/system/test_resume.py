@@ -304,7 +304,8 @@ def test_perturb(skerry, folder):
                    "beam2-.*-characteristic-quad4-eas-shares-yes-sub-cycled-added-mass-.*",
                    "beam2-fixed-particles-fixed-particles-characteristic-quad9-.*", "driven2-fixed-particles-.*",
                    "moving2-sliding-particles-round-rotation-.*", "moving2-fixed-particles-edged-translation-.*",
-                   "raft-.*", "burst-.*", "alone2-quad4-full-saint-venant-kirchhoff-moving")
+                   "raft-.*", "burst-.*", "alone2-quad4-full-saint-venant-kirchhoff-moving",
+                   "floating2-.*-fixed-point-added-mass-.*-False-.*", "floating3-.*-fixed-point-added-mass-.*-False-.*")
     acts = {}
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         jobs = [pool.submit(perturb_all, skerry, folder, number, *deck) for number, deck in enumerate(decks)]
