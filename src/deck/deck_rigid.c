@@ -58,14 +58,18 @@ static void read_motion(struct deck *deck, const struct deck_node *node, struct 
     }
 }
 
-/** What deformable meshes have and rigid bodies do not. */
-static void refuse_others(struct deck *deck, const struct deck_node *mesh)
+/** What deformable meshes have and rigid bodies do not; the defaults, which `skerry show` writes, say
+ * nothing. */
+static void refuse_others(struct deck *deck, const struct deck_node *mesh,
+                          const struct model_mesh *definition)
 {
     static const char *const names[] = {"formulation", "rho-infinity", "newton-tolerance"};
+    const bool chosen[] = {definition->formulation != SOLID_EAS, fabs(definition->rho_infinity - 0.8) > 0.0,
+                           fabs(definition->newton_tolerance - 1e-8) > 0.0};
     const struct deck_node *support = deck_child(mesh, SCHEMA_SUPPORT),
                            *initial = deck_child(mesh, SCHEMA_INITIAL);
     for (size_t k = 0; k < sizeof names / sizeof *names; k++)
-        if (deck_has(mesh, names[k]))
+        if (deck_has(mesh, names[k]) && chosen[k])
             deck_error(deck, mesh, names[k], "%s has no meaning for a rigid body; leave it out", names[k]);
     if (support)
         deck_error(
@@ -92,5 +96,5 @@ void deck_read_rigid(struct deck *deck, const struct deck_node *mesh, struct mod
     read_mass(deck, mesh, node, definition);
     read_inertia(deck, node, &definition->rigid);
     read_motion(deck, node, &definition->rigid);
-    refuse_others(deck, mesh);
+    refuse_others(deck, mesh, definition);
 }
