@@ -27,3 +27,9 @@ tests_coupling_test_material_particles_SOURCES = tests/coupling/test_material_pa
 tests_coupling_test_material_particles_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
 tests_coupling_test_material_particles_LDADD = $(test_libs)
 TESTS += tests/coupling/test_material_particles
+
+check_PROGRAMS += tests/coupling/test_rigid_bodies
+tests_coupling_test_rigid_bodies_SOURCES = tests/coupling/test_rigid_bodies.c $(test_assembly)
+tests_coupling_test_rigid_bodies_CPPFLAGS = $(AM_CPPFLAGS) -I$(top_srcdir)/tests
+tests_coupling_test_rigid_bodies_LDADD = $(test_libs)
+TESTS += tests/coupling/test_rigid_bodies
