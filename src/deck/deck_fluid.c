@@ -255,6 +255,7 @@ int deck_read_fluid(struct deck *deck)
     fluid->smoothing_length_ratio = deck_real(deck, node, "smoothing-length-ratio");
     fluid->damping = deck_real(deck, node, "damping");
     fluid->arithmetic = deck_choice(deck, node, "arithmetic") == 1 ? ARITHMETIC_DOUBLE : ARITHMETIC_MIXED;
+    fluid->convective_stress = deck_choice(deck, node, "convective-stress") == 0;
     CHECK_MEMORY(fluid->regions = memory_create(deck_count(node, SCHEMA_REGION), sizeof *fluid->regions));
     for (struct deck_node *region = deck_child(node, SCHEMA_REGION); region; region = deck_next(region))
         CALL(deck_read_region(deck, region, &fluid->regions[fluid->n_regions++]));

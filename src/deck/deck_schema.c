@@ -103,6 +103,9 @@ static const struct schema_attribute fluid_attributes[] = {
     {"arithmetic", SCHEMA_CHOICE, .choices = "mixed|double", .fallback = "mixed",
      .doc = "of sums over pairs of fluid particles: single precision pairs with exact positions, or double "
             "throughout"},
+    {"convective-stress", SCHEMA_CHOICE, .choices = "included|omitted", .fallback = "included",
+     .doc = "of transport velocities, in the momentum equation (Adami, Hu and Adams 2013); omitted, momentum "
+            "moves with the transport velocity as mass does, which adds a little diffusion instead of noise"},
     {0}};
 
 static const struct schema_child fluid_children[] = {{SCHEMA_REGION, 1, 0}, {SCHEMA_ELEMENTS_END, 0, 0}};

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /* Transport-velocity formulation of weakly compressible SPH: Fuchs et al. (2021), section 3.1, after Adami,
- * Hu and Adams (2013). Density summation (15), momentum (16) with the convective stress, linear equation of
- * state (20), kick-drift-kick (22)-(24); the background pressure moves particles but is no force. The pair
- * sums over fluid particles are in transport_velocity_sweeps.c; wall terms (31), (40) are here, in double. */
+ * Hu and Adams (2013). Density summation (15), momentum (16), linear equation of state (20), kick-drift-kick
+ * (22)-(24); the background pressure moves particles but is no force. The pair sums over fluid particles are
+ * in transport_velocity_sweeps.c; wall terms (31), (40) are here, in double.
+ *
+ * Where the particles are gives the density, so that mass moves with the transport velocity, and so does the
+ * momentum that particles take along. The convective stress corrects the latter to the momentum velocity. It
+ * depends on the frame of reference: of a disordered distribution it makes accelerations that grow with the
+ * speed of the fluid. Without it the shifts act as a diffusion that grows with the background pressure
+ * (doc/transport-velocity.md shows both). */
 #include "fluid/transport_velocity.h"
 
 #include "base/error.h"
@@ -53,12 +59,19 @@ static void transport_velocity_destroy(struct fluid *fluid)
     memory_free(tv);
 }
 
+/** Numbers of a record of the force sweep. */
+static size_t record_numbers(const struct fluid *fluid)
+{
+    const size_t dim = (size_t)fluid->model->dim;
+    return dim + 3 + (fluid->model->fluid.convective_stress ? dim : 0);
+}
+
 static size_t transport_velocity_bytes(const struct fluid *fluid)
 {
     const struct transport_velocity *tv = fluid->data;
     const size_t size = fluid->model->fluid.arithmetic == ARITHMETIC_DOUBLE ? sizeof(double) : sizeof(float);
-    const size_t dim = (size_t)fluid->model->dim;
-    return (tv->places_capacity * dim + tv->records_capacity * (2 * dim + 3)) * size;
+    return (tv->places_capacity * (size_t)fluid->model->dim + tv->records_capacity * record_numbers(fluid)) *
+           size;
 }
 
 static void transport_velocity_start(struct fluid *fluid)
@@ -140,6 +153,7 @@ static struct transport_velocity_arrays sweep_arrays(const struct fluid *fluid)
         .constant = fluid->view.kernel.constant,
         .viscosity = fluid->view.viscosity,
         .background_pressure = fluid->material->background_pressure,
+        .convective_stress = fluid->model->fluid.convective_stress,
         .kernel_sum = tv->kernel_sum,
     };
     for (int k = 0; k < 3; ++k) {
@@ -158,7 +172,7 @@ static int transport_velocity_density(struct fluid *fluid)
     const size_t dim = (size_t)fluid->model->dim, slots = fluid->list.n_slots;
     const size_t size = fluid->model->fluid.arithmetic == ARITHMETIC_DOUBLE ? sizeof(double) : sizeof(float);
     CALL(memory_grow(&tv->places, &tv->places_capacity, slots, dim * size));
-    CALL(memory_grow(&tv->records, &tv->records_capacity, slots, (2 * dim + 3) * size));
+    CALL(memory_grow(&tv->records, &tv->records_capacity, slots, record_numbers(fluid) * size));
     const struct transport_velocity_arrays arrays = sweep_arrays(fluid);
     tv->sweeps->density(&fluid->list, &arrays);
     return 0;
@@ -227,7 +241,7 @@ static void transport_velocity_wall_pair(const struct fluid *fluid, size_t i,
     double u[3], w[3];
     for (int d = 0; d < 3; ++d) {
         u[d] = block->u[d][i];
-        w[d] = tv->w[d][i];
+        w[d] = fluid->model->fluid.convective_stress ? tv->w[d][i] : 0.0;
         a[d] = a_background[d] = 0.0;
     }
     for (size_t k = 0; k < neighbours->n; ++k) {

@@ -5,6 +5,8 @@
 #include "sph/isa.h"
 #include "sph/neighbour_list.h"
 
+#include <stdbool.h>
+
 /** What the sweeps of the transport-velocity formulation read and write: arrays of the moving block (in
  * double), n entries. */
 struct transport_velocity_arrays {
@@ -13,10 +15,12 @@ struct transport_velocity_arrays {
     size_t n;
     const double *rho, *p, *m;
     void *places, *records;     /**< workspace for every slot of the list: dim places (4 bytes each in mixed
-                                     arithmetic, else 8) and 2 dim + 3 numbers of the pair arithmetic */
+                                     arithmetic, else 8) and dim + 3 numbers of the pair arithmetic, 2 dim + 3
+                                     with the convective stress */
     double h, constant;         /**< smoothing length; kernel normalisation */
     double viscosity;           /**< dynamic, Pa s */
     double background_pressure; /**< Pa */
+    bool convective_stress;     /**< add it to the momentum equation */
     double *kernel_sum;         /**< density sweep: sum_j W_ij, self included, 1/m^dim */
     double *a[3],
         *a_background[3]; /**< force sweep: accelerations by eq. 16 and by the background pressure */

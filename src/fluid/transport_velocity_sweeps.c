@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /* Pair sums of the transport-velocity formulation: density summation (Fuchs et al. 2021, eq. 15) and momentum
- * (eq. 16, with the convective stress and the background pressure of Adami, Hu and Adams 2013), quintic
- * spline. Wall terms are a sweep of their own (transport_velocity.c). Compiled once per instruction set and
- * precision of the pair arithmetic (sph/sweep.h). */
+ * (eq. 16, with the background pressure and, on request, the convective stress of Adami, Hu and Adams 2013),
+ * quintic spline. Wall terms are a sweep of their own (transport_velocity.c). Compiled once per instruction
+ * set and precision of the pair arithmetic (sph/sweep.h). */
 #include "fluid/transport_velocity.h"
 
 #include "sph/sweep.h"
@@ -71,31 +71,32 @@ SWEEP_INLINE void density_cluster(const struct sweep *sweep, const struct neighb
         arrays->kernel_sum[cluster->first + (uint32_t)l] = scale * sum[l];
 }
 
-/** What the force sweep reads of a candidate, in the precision of the pair arithmetic: velocity u, half of
- * the momentum density times the shift w, density, half of the pressure, squared volume. */
-SWEEP_INLINE int record_size(int dim)
+/** What the force sweep reads of a candidate, in the precision of the pair arithmetic: velocity u, density,
+ * half of the pressure, squared volume and, for the convective stress, half of the density times the shift w.
+ */
+SWEEP_INLINE int record_size(int dim, bool stress)
 {
-    return 2 * dim + 3;
-}
-
-SWEEP_INLINE int record_w(int dim)
-{
-    return dim;
+    return dim + 3 + (stress ? dim : 0);
 }
 
 SWEEP_INLINE int record_rho(int dim)
 {
-    return 2 * dim;
+    return dim;
 }
 
 SWEEP_INLINE int record_p(int dim)
 {
-    return 2 * dim + 1;
+    return dim + 1;
 }
 
 SWEEP_INLINE int record_v2(int dim)
 {
-    return 2 * dim + 2;
+    return dim + 2;
+}
+
+SWEEP_INLINE int record_w(int dim)
+{
+    return dim + 3;
 }
 
 /** s: sum of (V_i^2 + V_j^2) slope/q over the candidates, g: the same times r_i - r_j, a: times the rest of
@@ -108,15 +109,16 @@ struct force_sums {
 };
 
 SWEEP_INLINE void force_pair(struct force_sums *own, const vplace lanes[3], const place *candidates,
-                             size_t slot, int dim)
+                             size_t slot, int dim, bool stress)
 {
-    const int size = record_size(dim);
+    const int size = record_size(dim, stress);
     const real *record = own->records + sweep_at(slot, 0, size);
     vreal d[3], q2 = SWEEP_LEAST + (vreal){0}, momentum = own->viscosity + (vreal){0}, twice_q, twice_inverse;
     for (int k = 0; k < dim; ++k) {
         d[k] = sweep_difference(lanes[k], candidates + 2 * k);
         q2 += d[k] * d[k];
-        momentum -= sweep_spread(record + 2 * (record_w(dim) + k)) * d[k];
+        if (stress)
+            momentum -= sweep_spread(record + 2 * (record_w(dim) + k)) * d[k];
     }
     twice_root(q2, &twice_q, &twice_inverse);
     const vreal rho = sweep_spread(record + 2 * record_rho(dim)),
@@ -136,7 +138,7 @@ SWEEP_INLINE void force_pair(struct force_sums *own, const vplace lanes[3], cons
 
 SWEEP_INLINE void force_store(const struct force_sums sums[SWEEP_PARTS],
                               const struct neighbour_cluster *cluster,
-                              const struct transport_velocity_arrays *arrays, int dim)
+                              const struct transport_velocity_arrays *arrays, int dim, bool stress)
 {
     double a[3][NEIGHBOUR_LANES], g[3][NEIGHBOUR_LANES], s[NEIGHBOUR_LANES], wg[NEIGHBOUR_LANES] = {0};
     vreal lanes[SWEEP_PARTS];
@@ -155,7 +157,7 @@ SWEEP_INLINE void force_store(const struct force_sums sums[SWEEP_PARTS],
     const double viscosity = (double)sums->viscosity, background = arrays->background_pressure;
     const size_t first = cluster->first;
     const double *m = arrays->m + first, *rho = arrays->rho + first;
-    for (int k = 0; k < dim; ++k) {
+    for (int k = 0; k < dim && stress; ++k) {
         const double *w = arrays->w[k] + first;
         for (int l = 0; l < cluster->count; ++l)
             wg[l] += w[l] * g[k][l];
@@ -174,9 +176,10 @@ SWEEP_INLINE void force_store(const struct force_sums sums[SWEEP_PARTS],
 }
 
 SWEEP_INLINE void force_cluster(const struct sweep *sweep, const struct neighbour_cluster *cluster,
-                                const struct transport_velocity_arrays *arrays, int dim, sweep_pair *pair)
+                                const struct transport_velocity_arrays *arrays, int dim, bool stress,
+                                sweep_pair *pair)
 {
-    const int size = record_size(dim);
+    const int size = record_size(dim, stress);
     struct force_sums sums[SWEEP_PARTS];
     vreal rho[SWEEP_PARTS], p[SWEEP_PARTS], v2[SWEEP_PARTS];
     const vreal zero = {0};
@@ -188,43 +191,55 @@ SWEEP_INLINE void force_cluster(const struct sweep *sweep, const struct neighbou
             rho[part],          p[part], v2[part],        {zero, zero, zero},
             {zero, zero, zero}, zero,    arrays->records, (real)(arrays->viscosity * sweep->units)};
     sweep_near(sweep, cluster, dim, pair, sums, sizeof *sums);
-    force_store(sums, cluster, arrays, dim);
+    force_store(sums, cluster, arrays, dim, stress);
 }
 
-/* One function per dimension, so that the dimension is a constant inside. */
-#define CLUSTER_SWEEPS(dim)                                                                                  \
+/* One function per dimension and kind, so that they are constants inside. */
+#define DENSITY_SWEEP(dim)                                                                                   \
     SWEEP_INLINE void density_pair_##dim(void *sums, const vplace lanes[3], const place *candidates,         \
                                          size_t slot, vreal *q2)                                             \
     {                                                                                                        \
         (void)slot;                                                                                          \
         density_pair(sums, lanes, candidates, dim, q2);                                                      \
     }                                                                                                        \
-    SWEEP_INLINE void force_pair_##dim(void *sums, const vplace lanes[3], const place *candidates,           \
-                                       size_t slot, vreal *q2)                                               \
-    {                                                                                                        \
-        *q2 = (vreal){0};                                                                                    \
-        force_pair(sums, lanes, candidates, slot, dim);                                                      \
-    }                                                                                                        \
     static void density_cluster_##dim(const struct sweep *sweep, const struct neighbour_cluster *cluster,    \
                                       const struct transport_velocity_arrays *arrays)                        \
     {                                                                                                        \
         density_cluster(sweep, cluster, arrays, dim, density_pair_##dim);                                    \
-    }                                                                                                        \
-    static void force_cluster_##dim(const struct sweep *sweep, const struct neighbour_cluster *cluster,      \
-                                    const struct transport_velocity_arrays *arrays)                          \
-    {                                                                                                        \
-        force_cluster(sweep, cluster, arrays, dim, force_pair_##dim);                                        \
     }
-CLUSTER_SWEEPS(1)
-CLUSTER_SWEEPS(2)
-CLUSTER_SWEEPS(3)
-#undef CLUSTER_SWEEPS
+DENSITY_SWEEP(1)
+DENSITY_SWEEP(2)
+DENSITY_SWEEP(3)
+#undef DENSITY_SWEEP
+
+#define FORCE_SWEEP(dim, kind, stress)                                                                       \
+    SWEEP_INLINE void force_pair_##kind##_##dim(void *sums, const vplace lanes[3], const place *candidates,  \
+                                                size_t slot, vreal *q2)                                      \
+    {                                                                                                        \
+        *q2 = (vreal){0};                                                                                    \
+        force_pair(sums, lanes, candidates, slot, dim, stress);                                              \
+    }                                                                                                        \
+    static void force_cluster_##kind##_##dim(const struct sweep *sweep,                                      \
+                                             const struct neighbour_cluster *cluster,                        \
+                                             const struct transport_velocity_arrays *arrays)                 \
+    {                                                                                                        \
+        force_cluster(sweep, cluster, arrays, dim, stress, force_pair_##kind##_##dim);                       \
+    }
+FORCE_SWEEP(1, plain, false)
+FORCE_SWEEP(2, plain, false)
+FORCE_SWEEP(3, plain, false)
+FORCE_SWEEP(1, stress, true)
+FORCE_SWEEP(2, stress, true)
+FORCE_SWEEP(3, stress, true)
+#undef FORCE_SWEEP
 
 typedef void cluster_sweep(const struct sweep *sweep, const struct neighbour_cluster *cluster,
                            const struct transport_velocity_arrays *arrays);
 
 static cluster_sweep *const density_sweeps[] = {density_cluster_1, density_cluster_2, density_cluster_3};
-static cluster_sweep *const force_sweeps[] = {force_cluster_1, force_cluster_2, force_cluster_3};
+static cluster_sweep *const force_sweeps[2][3] = {
+    {force_cluster_plain_1, force_cluster_plain_2, force_cluster_plain_3},
+    {force_cluster_stress_1, force_cluster_stress_2, force_cluster_stress_3}};
 
 static void sweep_clusters(struct neighbour_list *list, const struct transport_velocity_arrays *arrays,
                            cluster_sweep *cluster_sweep)
@@ -249,9 +264,9 @@ static void sweep_density(struct neighbour_list *list, const struct transport_ve
 }
 
 SWEEP_INLINE void records_fill(const struct neighbour_list *list,
-                               const struct transport_velocity_arrays *arrays, int dim)
+                               const struct transport_velocity_arrays *arrays, int dim, bool stress)
 {
-    const int size = record_size(dim);
+    const int size = record_size(dim, stress);
     real *records = arrays->records;
 #pragma omp parallel for schedule(static)
     for (size_t c = 0; c < list->n_clusters; ++c) {
@@ -263,7 +278,8 @@ SWEEP_INLINE void records_fill(const struct neighbour_list *list,
             const double rho = arrays->rho[i], volume = arrays->m[i] / rho;
             for (int k = 0; k < dim; ++k) {
                 record[2 * k] = (real)arrays->u[k][i];
-                record[2 * (record_w(dim) + k)] = (real)(0.5 * rho * arrays->w[k][i]);
+                if (stress)
+                    record[2 * (record_w(dim) + k)] = (real)(0.5 * rho * arrays->w[k][i]);
             }
             record[2 * record_rho(dim)] = (real)rho;
             record[2 * record_p(dim)] = (real)(0.5 * arrays->p[i]);
@@ -274,13 +290,14 @@ SWEEP_INLINE void records_fill(const struct neighbour_list *list,
 
 static void sweep_force(struct neighbour_list *list, const struct transport_velocity_arrays *arrays)
 {
+    const bool stress = arrays->convective_stress;
     if (arrays->dim == 1)
-        records_fill(list, arrays, 1);
+        records_fill(list, arrays, 1, stress);
     else if (arrays->dim == 2)
-        records_fill(list, arrays, 2);
+        records_fill(list, arrays, 2, stress);
     else
-        records_fill(list, arrays, 3);
-    sweep_clusters(list, arrays, force_sweeps[arrays->dim - 1]);
+        records_fill(list, arrays, 3, stress);
+    sweep_clusters(list, arrays, force_sweeps[stress][arrays->dim - 1]);
 }
 
 const struct transport_velocity_sweeps SWEEP_NAME(transport_velocity_sweeps) = {sweep_density, sweep_force};

@@ -89,6 +89,7 @@ struct model_fluid {
     double smoothing_length_ratio; /**< h / spacing */
     double damping;                /**< global damping -d u, 1/s */
     enum arithmetic arithmetic;
+    bool convective_stress; /**< of the transport velocity, in the momentum equation */
     size_t n_regions;
     struct model_region *regions;
     struct location where;

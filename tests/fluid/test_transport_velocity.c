@@ -54,7 +54,10 @@ static void reference_make(const struct fluid_case *c, struct reference *ref, in
                 we_j += ref->w[k][j] * d[k] / r;
             }
             for (int k = 0; k < dim; ++k) {
-                double stress = 0.5 * (ref->rho[i] * b->u[k][i] * we_i + ref->rho[j] * b->u[k][j] * we_j);
+                double stress =
+                    !c->model.fluid.convective_stress
+                        ? 0.0
+                        : 0.5 * (ref->rho[i] * b->u[k][i] * we_i + ref->rho[j] * b->u[k][j] * we_j);
                 a[k] += vv * dw / b->m[i] *
                         (stress - pij * d[k] / r + view->viscosity * (b->u[k][i] - b->u[k][j]) / r);
                 background[k] -= c->material.background_pressure * vv * dw / b->m[i] * d[k] / r;
@@ -91,10 +94,11 @@ static double difference(double *const got[3], double *const want[3], int dim, s
 }
 
 static void compare(int dim, const int cells[3], double jitter, int cluster, enum arithmetic arithmetic,
-                    const char *isa, double tolerance_rho, double tolerance_a)
+                    bool stress, const char *isa, double tolerance_rho, double tolerance_a)
 {
     struct fluid_case c;
     assert_int_equal(fluid_case_create(&c, dim, cells, dx, jitter, 0.7, cluster, arithmetic, isa), 0);
+    c.model.fluid.convective_stress = stress;
     assert_int_equal(fluid_start(c.fluid, 0.0), 0);
     /* a few steps, so that transport shifts, list ages and images differ from the start */
     double t = 0.0, dt = cluster ? 2e-6 : 1e-4;
@@ -125,8 +129,9 @@ static void compare(int dim, const int cells[3], double jitter, int cluster, enu
     double error_background =
         difference(field_arrays(b, "BackgroundAcceleration"), ref.background, dim, b->n);
     if (!(error_rho < tolerance_rho && error < tolerance_a && error_background < tolerance_a))
-        fail_msg("dim %d jitter %g cluster %d %s %s: errors %g %g %g", dim, jitter, cluster, isa,
-                 arithmetic == ARITHMETIC_DOUBLE ? "double" : "mixed", error_rho, error, error_background);
+        fail_msg("dim %d jitter %g cluster %d stress %d %s %s: errors %g %g %g", dim, jitter, cluster, stress,
+                 isa, arithmetic == ARITHMETIC_DOUBLE ? "double" : "mixed", error_rho, error,
+                 error_background);
     memory_free(memory);
     fluid_case_reset(&c);
 }
@@ -138,18 +143,65 @@ static void sweeps_match_equations(void **state)
     (void)state;
     static const int cells[4][3] = {{0}, {57, 1, 1}, {23, 19, 1}, {11, 9, 13}};
     for (size_t s = 0; s < 3; ++s)
-        for (int dim = 1; dim <= 3; ++dim) {
+        for (int k = 0; k < 6; ++k) {
+            const int dim = 1 + k % 3;
+            const bool stress = k >= 3;
             if (!isa_available(isas[s]))
                 continue;
-            compare(dim, cells[dim], 0.0, 0, ARITHMETIC_DOUBLE, isas[s], 1e-13, 1e-11);
-            compare(dim, cells[dim], 0.2, 0, ARITHMETIC_DOUBLE, isas[s], 1e-13, 1e-11);
-            compare(dim, cells[dim], 0.2, 0, ARITHMETIC_MIXED, isas[s], 2e-6, 5e-5);
-            compare(dim, cells[dim], 0.1, 1, ARITHMETIC_DOUBLE, isas[s], 1e-13, 1e-11);
-            compare(dim, cells[dim], 0.1, 1, ARITHMETIC_MIXED, isas[s], 2e-6, 5e-5);
+            compare(dim, cells[dim], 0.0, 0, ARITHMETIC_DOUBLE, stress, isas[s], 1e-13, 1e-11);
+            compare(dim, cells[dim], 0.2, 0, ARITHMETIC_DOUBLE, stress, isas[s], 1e-13, 1e-11);
+            compare(dim, cells[dim], 0.2, 0, ARITHMETIC_MIXED, stress, isas[s], 2e-6, 5e-5);
+            compare(dim, cells[dim], 0.1, 1, ARITHMETIC_DOUBLE, stress, isas[s], 1e-13, 1e-11);
+            compare(dim, cells[dim], 0.1, 1, ARITHMETIC_MIXED, stress, isas[s], 2e-6, 5e-5);
         }
     /* a domain longer than the 2048 h at which places in mixed precision wrap around */
     static const int longer[3] = {2311, 1, 1};
-    compare(1, longer, 0.2, 0, ARITHMETIC_MIXED, "auto", 2e-6, 5e-5);
+    compare(1, longer, 0.2, 0, ARITHMETIC_MIXED, true, "auto", 2e-6, 5e-5);
+}
+
+/** Accelerations in a box that moves as a whole with (@p speed, -@p speed), by id. */
+static void accelerations_when_moving(bool stress, double speed, double *a, size_t n)
+{
+    static const int cells[3] = {19, 23, 1};
+    struct fluid_case c;
+    assert_int_equal(fluid_case_create(&c, 2, cells, dx, 0.2, 0.3, 0, ARITHMETIC_DOUBLE, "auto"), 0);
+    c.model.fluid.convective_stress = stress;
+    struct particles *b = (struct particles *)fluid_particles(c.fluid);
+    assert_int_equal(b->n, n);
+    for (size_t i = 0; i < n; ++i) {
+        b->u[0][i] += speed;
+        b->u[1][i] -= speed;
+    }
+    assert_int_equal(fluid_start(c.fluid, 0.0), 0);
+    for (int step = 0; step < 2; ++step) {
+        assert_int_equal(fluid_begin_step(c.fluid, 1e-4 * step, 1e-4), 0);
+        assert_int_equal(fluid_interface(c.fluid, false), 0);
+        assert_int_equal(fluid_end_step(c.fluid), 0);
+    }
+    double *const *from = field_arrays(b, "Acceleration");
+    for (size_t i = 0; i < n; ++i)
+        for (size_t k = 0; k < 2; ++k)
+            a[2 * (size_t)b->id[i] + k] = from[k][i];
+    fluid_case_reset(&c);
+}
+
+/** A disordered box feels its own speed by the convective stress alone. */
+static void frames_of_reference(void **state)
+{
+    (void)state;
+    enum { N = 19 * 23 };
+    static double a[2][2 * N];
+    for (int stress = 0; stress < 2; ++stress) {
+        double largest = 0.0, off = 0.0;
+        for (int k = 0; k < 2; ++k)
+            accelerations_when_moving(stress, 3.7 * k, a[k], N);
+        for (size_t i = 0; i < 2 * (size_t)N; ++i) {
+            largest = fmax(largest, fabs(a[0][i]));
+            off = fmax(off, fabs(a[1][i] - a[0][i]));
+        }
+        print_message("convective stress %d: accelerations up to %g differ by %g\n", stress, largest, off);
+        assert_true(stress ? off > 1e-3 * largest : off < 1e-9 * largest);
+    }
 }
 
 /** Places and velocities after some steps, ordered by id. */
@@ -256,9 +308,9 @@ static void overlap_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sweeps_match_equations), cmocka_unit_test(threads_give_same_bytes),
-        cmocka_unit_test(momentum_is_conserved),  cmocka_unit_test(errors_are_reported),
-        cmocka_unit_test(overlap_is_refused),
+        cmocka_unit_test(sweeps_match_equations),  cmocka_unit_test(frames_of_reference),
+        cmocka_unit_test(threads_give_same_bytes), cmocka_unit_test(momentum_is_conserved),
+        cmocka_unit_test(errors_are_reported),     cmocka_unit_test(overlap_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
