@@ -32,6 +32,50 @@ static void check_dimension(struct deck *deck, const struct deck_node *node, enu
                    dim == 2 ? "quad4, quad8, quad9, tri3 or tri6" : "hex8, hex20, hex27, tet4 or tet10");
 }
 
+/** Mark the elements whose centres lie in a shape of the hole @p node. */
+static int read_hole(struct deck *deck, const struct deck_node *node, const struct mesh *mesh, bool *left_out)
+{
+    for (const struct deck_node *child = node->children; child; child = child->next) {
+        struct shape shape = {0};
+        const size_t before = deck->n_problems;
+        size_t n = 0;
+        int status = deck_read_shape(deck, child, &shape);
+        for (size_t e = 0; !status && deck->n_problems == before && e < mesh->n_elements; e++) {
+            double centre[3];
+            mesh_centre(mesh, e, centre);
+            if (shape_distance(&shape, mesh->dim, centre) < 0.0) {
+                left_out[e] = true;
+                n++;
+            }
+        }
+        shape_reset(&shape);
+        CALL(status);
+        if (deck->n_problems == before && n == 0)
+            deck_error(deck, child, NULL, "no element of the grid has its centre in here");
+    }
+    return 0;
+}
+
+static int read_holes(struct deck *deck, const struct deck_node *grid, struct mesh *mesh)
+{
+    const size_t before = deck->n_problems;
+    bool *left_out = memory_create(mesh->n_elements, sizeof *left_out);
+    CHECK_MEMORY(left_out);
+    int status = 0;
+    for (const struct deck_node *hole = deck_child(grid, SCHEMA_HOLE); hole && !status;
+         hole = deck_next(hole))
+        status = read_hole(deck, hole, mesh, left_out);
+    size_t left = 0;
+    for (size_t e = 0; e < mesh->n_elements; e++)
+        left += !left_out[e];
+    if (left == 0 && !status)
+        deck_error(deck, grid, NULL, "its holes leave none of its %zu elements", mesh->n_elements);
+    if (deck->n_problems == before && !status && left < mesh->n_elements)
+        status = mesh_leave_out(mesh, left_out);
+    memory_free(left_out);
+    return status;
+}
+
 static void read_grid(struct deck *deck, const struct deck_node *node, struct mesh *mesh)
 {
     const enum element_type type = deck_has(node, "type")  ? element_type_of(deck, node)
@@ -60,7 +104,9 @@ static void read_grid(struct deck *deck, const struct deck_node *node, struct me
     if (deck->n_problems > before)
         return;
     int status = mesh_create_grid(mesh, deck->model->dim, lower, upper, cells);
-    if (!status && type != mesh->type)
+    if (!status && deck_child(node, SCHEMA_HOLE))
+        status = read_holes(deck, node, mesh);
+    if (!status && type != mesh->type && deck->n_problems == before)
         status = mesh_convert(mesh, type);
     if (status)
         deck->status = status;

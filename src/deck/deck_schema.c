@@ -201,6 +201,12 @@ static const struct schema_attribute grid_attributes[] = {
             "hex27) need formulation=\"full\""},
     {0}};
 
+static const struct schema_child grid_children[] = {{SCHEMA_HOLE, 0, 0}, {SCHEMA_ELEMENTS_END, 0, 0}};
+
+static const struct schema_child hole_shapes[] = {
+    {SCHEMA_BOX, 0, 0},     {SCHEMA_DISC, 0, 0},           {SCHEMA_BALL, 0, 0},        {SCHEMA_ANNULUS, 0, 0},
+    {SCHEMA_POLYGON, 0, 0}, {SCHEMA_CYLINDER_SHAPE, 0, 0}, {SCHEMA_ELEMENTS_END, 0, 0}};
+
 static const struct schema_attribute disc_mesh_attributes[] = {
     {"centre", SCHEMA_VECTOR, .required = true, .unit = "m", .doc = "centre"},
     {"radius", SCHEMA_REAL, .required = true, .range = RANGE_POSITIVE, .unit = "m",
@@ -547,9 +553,14 @@ static const struct schema_element elements[SCHEMA_ELEMENTS_END] =
           "a solid of finite elements: a <grid>, a <disc>, or <nodes> and <elements>; deformable, or with "
           "<rigid> a rigid body",
           .attributes = mesh_attributes, .children = mesh_children},
-     [SCHEMA_GRID] = {"grid", "grid",
-                      "a box cut into elements, quad4 (2-D) or hex8 (3-D) unless told otherwise",
-                      .attributes = grid_attributes},
+     [SCHEMA_GRID] =
+         {"grid", "grid",
+          "a box cut into elements, quad4 (2-D) or hex8 (3-D) unless told otherwise; <hole>s leave "
+          "some of them out",
+          .attributes = grid_attributes, .children = grid_children},
+     [SCHEMA_HOLE] = {"hole", "hole",
+                      "what a grid leaves out: elements whose centres lie in any of the shapes inside",
+                      .shapes = hole_shapes, .least_shapes = 1, .most_shapes = 0},
      [SCHEMA_DISC_MESH] = {"disc", "disc-mesh", "a disc of quads (2-D)", .attributes = disc_mesh_attributes},
      [SCHEMA_RIGID] =
          {"rigid", "rigid",

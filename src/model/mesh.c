@@ -415,6 +415,67 @@ void facets_reset(struct facets *facets)
     *facets = (struct facets){0};
 }
 
+void mesh_centre(const struct mesh *mesh, size_t e, double centre[3])
+{
+    const int n = mesh->nodes_per_element;
+    memset(centre, 0, 3 * sizeof *centre);
+    for (int a = 0; a < n; a++)
+        for (int d = 0; d < 3; d++)
+            centre[d] += mesh->X[mesh->connectivity[e * (size_t)n + (size_t)a]][d] / n;
+}
+
+/** Sets by the new numbers of their nodes (-1: gone). */
+static void renumber_sets(struct mesh *mesh, const int32_t *numbers)
+{
+    size_t n_sets = 0;
+    for (size_t s = 0; s < mesh->n_sets; s++) {
+        struct node_set *set = &mesh->sets[s];
+        size_t n = 0;
+        for (size_t i = 0; i < set->n; i++)
+            if (numbers[set->nodes[i]] >= 0)
+                set->nodes[n++] = numbers[set->nodes[i]];
+        set->n = n;
+        if (n > 0) {
+            mesh->sets[n_sets++] = *set;
+        } else {
+            memory_free(set->name);
+            memory_free(set->nodes);
+        }
+    }
+    mesh->n_sets = n_sets;
+}
+
+int mesh_leave_out(struct mesh *mesh, const bool *left_out)
+{
+    const size_t columns = (size_t)mesh->nodes_per_element;
+    int32_t *numbers = memory_create(mesh->n_nodes, sizeof *numbers);
+    CHECK_MEMORY(numbers);
+    size_t n = 0;
+    for (size_t i = 0; i < mesh->n_nodes; i++)
+        numbers[i] = -1;
+    for (size_t e = 0; e < mesh->n_elements; e++) {
+        const int32_t *nodes = mesh->connectivity + e * columns;
+        if (left_out[e])
+            continue;
+        for (size_t a = 0; a < columns; a++)
+            numbers[nodes[a]] = 0;
+        memmove(mesh->connectivity + n++ * columns, nodes, columns * sizeof *nodes);
+    }
+    mesh->n_elements = n;
+    n = 0;
+    for (size_t i = 0; i < mesh->n_nodes; i++)
+        if (numbers[i] == 0) {
+            memmove(mesh->X[n], mesh->X[i], sizeof *mesh->X);
+            numbers[i] = (int32_t)n++;
+        }
+    mesh->n_nodes = n;
+    for (size_t k = 0; k < mesh->n_elements * columns; k++)
+        mesh->connectivity[k] = numbers[mesh->connectivity[k]];
+    renumber_sets(mesh, numbers);
+    memory_free(numbers);
+    return 0;
+}
+
 void mesh_reset(struct mesh *mesh)
 {
     memory_free(mesh->X);

@@ -70,6 +70,15 @@ int mesh_create_grid(struct mesh *mesh, int dim, const double lower[3], const do
 int mesh_create_disc(struct mesh *mesh, enum element_type type, const double centre[3], double radius,
                      int cells);
 
+/** Leave out the elements that @p left_out (n_elements values) names; nodes that none of the others has
+ * vanish, also from the sets, and so do sets that become empty. At least one element has to stay. Returns a
+ * status.
+ */
+int mesh_leave_out(struct mesh *mesh, const bool *left_out);
+
+/** Centre of the nodes of element @p e. */
+void mesh_centre(const struct mesh *mesh, size_t e, double centre[3]);
+
 /** Add the set of all nodes in the box [lower, upper] (widened by @p tolerance). STATUS_DECK (not reported)
  * if it is empty. */
 int mesh_add_set_box(struct mesh *mesh, const char *name, const double lower[3], const double upper[3],

@@ -47,6 +47,88 @@ static void test_grid_refuses(void **state)
     assert_int_equal(mesh_create_grid(&mesh, 3, lower, upper, (const int[3]){60000, 60000, 9}), STATUS_DECK);
 }
 
+/** Sum of the area vectors of a mesh's skin; returns the volume inside (divergence theorem). */
+static double skin_volume(const struct facets *skin, double area[3])
+{
+    double volume = 0.0;
+    memset(area, 0, 3 * sizeof *area);
+    for (size_t f = 0; f < skin->n_facets; f++) {
+        const double *a = skin->points[skin->nodes[f][0]], *b = skin->points[skin->nodes[f][1]];
+        const double *last = skin->dim == 2 ? b : skin->points[skin->nodes[f][2]];
+        double normal[3] = {b[1] - a[1], a[0] - b[0], 0};
+        if (skin->dim == 3) {
+            const double *d = skin->points[skin->nodes[f][3]];
+            for (int i = 0; i < 3; i++) {
+                const int j = (i + 1) % 3, k = (i + 2) % 3;
+                normal[i] = 0.5 * ((last[j] - a[j]) * (d[k] - b[k]) - (last[k] - a[k]) * (d[j] - b[j]));
+            }
+        } else {
+            assert_int_equal(skin->nodes[f][2], -1);
+        }
+        for (int i = 0; i < skin->dim; i++) {
+            area[i] += normal[i];
+            volume += normal[i] * 0.5 * (a[i] + last[i]) / skin->dim;
+        }
+    }
+    return volume;
+}
+
+/** A frame: 5 x 4 (x 3) cells without all those that lie inside, and without the upper right corner. */
+static void test_left_out(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        struct mesh mesh;
+        const int cells[3] = {5, 4, 3};
+        const double size[3] = {0.5, 0.8, 0.9}, low[3] = {0.3, -0.1, 0.2};
+        const double high[3] = {low[0] + size[0], low[1] + size[1], low[2] + size[2]};
+        assert_int_equal(mesh_create_grid(&mesh, dim, low, high, cells), 0);
+        bool left_out[5 * 4 * 3] = {0};
+        double volume = 0.0;
+        size_t n = 0;
+        for (size_t e = 0; e < mesh.n_elements; e++) {
+            const size_t i = e % 5, j = e / 5 % 4, k = e / 20;
+            const bool inside = i > 0 && i < 4 && j > 0 && j < 3 && (dim == 2 || k == 1);
+            left_out[e] = inside || (i == 4 && j == 3 && k == (size_t)(dim - 2) * 2);
+            n += !left_out[e];
+            volume += left_out[e] ? 0.0 : 0.1 * 0.2 * (dim == 3 ? 0.3 : 1.0);
+        }
+        assert_int_equal(mesh_leave_out(&mesh, left_out), 0);
+        assert_int_equal(mesh.n_elements, n);
+        /* only the corner's node has no element left: 6 x 5 (x 4), where the frame keeps those inside */
+        assert_int_equal(mesh.n_nodes, (dim == 3 ? 120 : 30) - (dim == 3 ? 1 : 2 + 1));
+        assert_int_equal(mesh_find_set(&mesh, "y+")->n, dim == 3 ? 23 : 5);
+        const struct node_set *right = mesh_find_set(&mesh, "x+");
+        for (size_t s = 0; s < right->n; s++)
+            assert_true(fabs(mesh.X[right->nodes[s]][0] - high[0]) < 1e-15);
+        struct facets skin;
+        double centre[3], area[3];
+        mesh_centre(&mesh, 0, centre);
+        assert_true(fabs(centre[0] - (low[0] + 0.05)) < 1e-15 && fabs(centre[1] - (low[1] + 0.1)) < 1e-15);
+        assert_int_equal(mesh_skin(&mesh, NULL, &skin), 0);
+        assert_true(fabs(skin_volume(&skin, area) - volume) < 1e-14);
+        for (int d = 0; d < dim; d++)
+            assert_true(fabs(area[d]) < 1e-14);
+        facets_reset(&skin);
+        mesh_reset(&mesh);
+    }
+}
+
+/** Sets without a node that is left vanish. */
+static void test_left_out_set(void **state)
+{
+    (void)state;
+    struct mesh mesh;
+    const bool left_out[2] = {true, false};
+    assert_int_equal(mesh_create_grid(&mesh, 2, lower, upper, (const int[3]){2, 1, 1}), 0);
+    assert_int_equal(mesh_leave_out(&mesh, left_out), 0);
+    assert_int_equal(mesh.n_nodes, 4);
+    assert_null(mesh_find_set(&mesh, "x-"));
+    assert_int_equal(mesh_find_set(&mesh, "y+")->n, 2);
+    assert_true(mesh_jacobian(&mesh, 0, (const double[3]){0}) > 0.0);
+    mesh_reset(&mesh);
+}
+
 static void test_sets(void **state)
 {
     (void)state;
@@ -75,25 +157,8 @@ static void test_skin_is_closed_and_faces_out(void **state)
         assert_int_equal(mesh_create_grid(&mesh, dim, lower, upper, (const int[3]){4, 3, 2}), 0);
         assert_int_equal(mesh_skin(&mesh, NULL, &skin), 0);
         assert_int_equal(skin.n_facets, dim == 2 ? 14 : 2 * (12 + 8 + 6));
-        double area[3] = {0}, volume = 0;
-        for (size_t f = 0; f < skin.n_facets; f++) {
-            const double *a = skin.points[skin.nodes[f][0]], *b = skin.points[skin.nodes[f][1]];
-            double normal[3] = {b[1] - a[1], a[0] - b[0], 0};
-            if (dim == 3) {
-                const double *c = skin.points[skin.nodes[f][2]], *d = skin.points[skin.nodes[f][3]];
-                for (int i = 0; i < 3; i++) {
-                    const int j = (i + 1) % 3, k = (i + 2) % 3;
-                    normal[i] = 0.5 * ((c[j] - a[j]) * (d[k] - b[k]) - (c[k] - a[k]) * (d[j] - b[j]));
-                }
-            } else {
-                assert_int_equal(skin.nodes[f][2], -1);
-            }
-            for (int i = 0; i < dim; i++) {
-                area[i] += normal[i];
-                volume +=
-                    normal[i] * 0.5 * (a[i] + (dim == 2 ? b[i] : skin.points[skin.nodes[f][2]][i])) / dim;
-            }
-        }
+        double area[3];
+        const double volume = skin_volume(&skin, area);
         for (int i = 0; i < dim; i++)
             assert_true(fabs(area[i]) < 1e-15);
         assert_true(fabs(volume - 0.35101 * 0.02 * (dim == 3 ? 0.4 : 1)) < 1e-15);
@@ -323,6 +388,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_grid_2d),
         cmocka_unit_test(test_grid_refuses),
+        cmocka_unit_test(test_left_out),
+        cmocka_unit_test(test_left_out_set),
         cmocka_unit_test(test_sets),
         cmocka_unit_test(test_skin_is_closed_and_faces_out),
         cmocka_unit_test(test_skin_of_tetrahedron),
