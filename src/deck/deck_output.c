@@ -30,32 +30,38 @@ static int read_fields(struct deck *deck, const struct deck_node *node, struct m
 struct history_form {
     enum history_kind kind;
     const char *needs; /**< blank-separated */
+    const char *may;   /**< what it takes but can do without */
 };
 
 static const struct history_form forms[] = {
-    {HISTORY_POINT, "mesh at"}, {HISTORY_FORCE, "surfaces"},
-    {HISTORY_GAUGE, "at"},      {HISTORY_PROFILE, "from to points"},
-    {HISTORY_VOLUME, ""},       {HISTORY_RIGID, "mesh"},
-    {HISTORY_ENERGY, ""},       {HISTORY_COUPLING, ""},
+    {HISTORY_POINT, "mesh at", ""},
+    {HISTORY_FORCE, "surfaces", ""},
+    {HISTORY_GAUGE, "at", ""},
+    {HISTORY_PROFILE, "from to points", ""},
+    {HISTORY_VOLUME, "", "lower upper"},
+    {HISTORY_RIGID, "mesh", ""},
+    {HISTORY_ENERGY, "", ""},
+    {HISTORY_COUPLING, "", ""},
 };
 
-static bool needs(const struct history_form *form, const char *name)
+/** Whether @p name is among the blank-separated @p words. */
+static bool among(const char *words, const char *name)
 {
-    const char *found = strstr(form->needs, name);
+    const char *found = strstr(words, name);
     const size_t length = strlen(name);
-    return found && (found == form->needs || found[-1] == ' ') &&
-           (found[length] == '\0' || found[length] == ' ');
+    return found && (found == words || found[-1] == ' ') && (found[length] == '\0' || found[length] == ' ');
 }
 
 static void check_form(struct deck *deck, const struct deck_node *node, const struct history_form *form)
 {
-    static const char *const names[] = {"mesh", "at", "surfaces", "from", "to", "points"};
+    static const char *const names[] = {"mesh", "at", "surfaces", "from", "to", "points", "lower", "upper"};
     const char *type = deck_text(node, "type");
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (needs(form, names[i]) && !deck_has(node, names[i]))
+        const bool needed = among(form->needs, names[i]);
+        if (needed && !deck_has(node, names[i]))
             deck_error(deck, node, "type", "attribute \"%s\" is missing: type=\"%s\" needs it", names[i],
                        type);
-        if (!needs(form, names[i]) && deck_has(node, names[i]))
+        if (!needed && !among(form->may, names[i]) && deck_has(node, names[i]))
             deck_error(deck, node, names[i], "attribute \"%s\" has no meaning for type=\"%s\"", names[i],
                        type);
     }
@@ -67,6 +73,26 @@ static void check_form(struct deck *deck, const struct deck_node *node, const st
     if (form->kind == HISTORY_COUPLING && model->coupling.scheme &&
         strcmp(model->coupling.scheme, "none") == 0)
         deck_error(deck, node, "type", "type=\"coupling\": nothing is coupled in this deck");
+}
+
+/** The part of space that a history of the volume counts, if it does not count everything. */
+static void read_box(struct deck *deck, const struct deck_node *node, struct model_history *history)
+{
+    history->has_box = deck_has(node, "lower") || deck_has(node, "upper");
+    if (!history->has_box)
+        return;
+    if (!deck_has(node, "lower") || !deck_has(node, "upper")) {
+        deck_error(deck, node, NULL, "a box needs both \"lower\" and \"upper\"");
+        return;
+    }
+    const size_t before = deck->n_problems;
+    deck_vector(deck, node, "lower", history->from);
+    deck_vector(deck, node, "upper", history->to);
+    for (int d = 0; d < deck->model->dim && deck->n_problems == before; d++)
+        if (!(history->from[d] < history->to[d]))
+            deck_error(deck, node, "upper",
+                       "upper corner %.9g is not above lower corner %.9g in direction %c", history->to[d],
+                       history->from[d], "xyz"[d]);
 }
 
 static void read_history(struct deck *deck, const struct deck_node *node, struct model_history *history)
@@ -91,8 +117,12 @@ static void read_history(struct deck *deck, const struct deck_node *node, struct
     if (form->kind == HISTORY_RIGID && history->mesh >= 0 && !model->meshes[history->mesh].rigid.present)
         deck_error(deck, node, "mesh", "type=\"rigid\": mesh \"%s\" is no rigid body; use type=\"point\"",
                    model->meshes[history->mesh].name);
-    deck_vector(deck, node, form->kind == HISTORY_PROFILE ? "from" : "at", history->from);
-    deck_vector(deck, node, "to", history->to);
+    if (form->kind == HISTORY_VOLUME) {
+        read_box(deck, node, history);
+    } else {
+        deck_vector(deck, node, form->kind == HISTORY_PROFILE ? "from" : "at", history->from);
+        deck_vector(deck, node, "to", history->to);
+    }
     history->points = deck_integer(deck, node, "points");
     for (int i = 0; i < history->n_surfaces; i++) {
         bool has_wall = false;

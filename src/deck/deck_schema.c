@@ -297,8 +297,8 @@ static const struct schema_child surface_children[] = {{SCHEMA_SKIN, 0, 0},
 
 static const struct schema_attribute skin_attributes[] = {
     {"mesh", SCHEMA_REFERENCE, .required = true, .doc = "a <mesh>"},
-    {"exclude", SCHEMA_REFERENCE,
-     .doc = "node set of the mesh: sides of elements all of whose nodes belong to it are left out"},
+    {"exclude", SCHEMA_REFERENCES,
+     .doc = "node sets of the mesh: sides of elements all of whose nodes belong to one of them are left out"},
     {0}};
 
 static const struct schema_attribute arc_attributes[] = {
@@ -488,6 +488,9 @@ static const struct schema_attribute history_attributes[] = {
     {"mesh", SCHEMA_REFERENCE, .doc = "point, rigid: the mesh"},
     {"at", SCHEMA_VECTOR, .unit = "m", .doc = "point: undeformed place; gauge: place"},
     {"surfaces", SCHEMA_REFERENCES, .doc = "force: the surfaces"},
+    {"lower", SCHEMA_VECTOR, .unit = "m",
+     .doc = "volume: lower corner of a box outside of which particles do not count; default: all count"},
+    {"upper", SCHEMA_VECTOR, .unit = "m", .doc = "volume: upper corner of the box"},
     {"from", SCHEMA_VECTOR, .unit = "m", .doc = "profile: first point"},
     {"to", SCHEMA_VECTOR, .unit = "m", .doc = "profile: last point"},
     {"points", SCHEMA_INTEGER, .range = RANGE_POSITIVE, .doc = "profile: number of points"},

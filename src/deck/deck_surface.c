@@ -19,8 +19,9 @@ static void read_skin(struct deck *deck, const struct deck_node *node, struct su
     if (part->mesh < 0)
         return;
     const struct mesh *mesh = &model->meshes[part->mesh].mesh;
-    part->exclude_set =
-        deck_reference(deck, node, "exclude", "node set", mesh->sets, mesh->n_sets, sizeof *mesh->sets);
+    if (deck_has(node, "exclude"))
+        part->n_excluded = deck_references(deck, node, "exclude", "node set", mesh->sets, mesh->n_sets,
+                                           sizeof *mesh->sets, &part->excluded);
 }
 
 /** A chain of n points; @p backwards: segments go from the later to the earlier point. */
@@ -135,7 +136,7 @@ static bool is_analytic(const struct deck_node *node)
 static void read_part(struct deck *deck, const struct deck_node *node, struct model_surface *surface)
 {
     struct surface_part *part = &surface->parts[surface->n_parts++];
-    part->mesh = part->exclude_set = -1;
+    part->mesh = -1;
     if (node->id == SCHEMA_SKIN)
         read_skin(deck, node, part);
     else if (node->id == SCHEMA_ARC)

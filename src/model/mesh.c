@@ -354,9 +354,27 @@ static void add_pieces(const int32_t *nodes, int n, const struct side_pieces *cu
     }
 }
 
-/** Write the outer sides in the order of the elements. */
-static void collect_skin(const struct mesh *mesh, const bool *outer, const bool *excluded,
-                         struct facets *skin)
+/** Of the sides of all elements, unmark those all of whose nodes lie in the set. */
+static void exclude_sides(const struct mesh *mesh, const struct node_set *set, bool *in_set, bool *outer)
+{
+    const struct element_description *description = &descriptions[mesh->type];
+    const int n = element_nodes(description->side);
+    memset(in_set, 0, mesh->n_nodes * sizeof *in_set);
+    for (size_t i = 0; i < set->n; i++)
+        in_set[set->nodes[i]] = true;
+    for (size_t e = 0; e < mesh->n_elements; e++)
+        for (int f = 0; f < description->n_sides; f++) {
+            const int32_t *nodes = &mesh->connectivity[e * (size_t)mesh->nodes_per_element];
+            bool all = true;
+            for (int k = 0; k < n && all; k++)
+                all = in_set[nodes[description->sides[f][k]]];
+            if (all)
+                outer[e * (size_t)description->n_sides + (size_t)f] = false;
+        }
+}
+
+/** Write the marked sides in the order of the elements. */
+static void collect_skin(const struct mesh *mesh, const bool *outer, struct facets *skin)
 {
     const struct element_description *description = &descriptions[mesh->type];
     const int n = element_nodes(description->side);
@@ -365,18 +383,14 @@ static void collect_skin(const struct mesh *mesh, const bool *outer, const bool 
             if (!outer[e * (size_t)description->n_sides + (size_t)f])
                 continue;
             int32_t nodes[SIDE_MAX_NODES];
-            bool drop = true;
-            for (int k = 0; k < n; k++) {
+            for (int k = 0; k < n; k++)
                 nodes[k] = mesh->connectivity[e * (size_t)mesh->nodes_per_element +
                                               (size_t)description->sides[f][k]];
-                drop = drop && excluded[nodes[k]];
-            }
-            if (!drop)
-                add_pieces(nodes, n, &pieces[description->side], skin);
+            add_pieces(nodes, n, &pieces[description->side], skin);
         }
 }
 
-int mesh_skin(const struct mesh *mesh, const struct node_set *exclude, struct facets *skin)
+int mesh_skin(const struct mesh *mesh, const int *excluded, size_t n_excluded, struct facets *skin)
 {
     *skin = (struct facets){.dim = mesh->dim, .n_points = mesh->n_nodes};
     const struct element_description *description = &descriptions[mesh->type];
@@ -387,23 +401,23 @@ int mesh_skin(const struct mesh *mesh, const struct node_set *exclude, struct fa
                  n_facets = n_sides * (size_t)pieces[description->side].n;
     const bool curved = element_is_quadratic(mesh->type);
     bool *outer = memory_create(n_sides, sizeof *outer);
-    bool *excluded = memory_create(mesh->n_nodes, sizeof *excluded);
+    bool *in_set = memory_create(mesh->n_nodes, sizeof *in_set);
     skin->points = memory_create(mesh->n_nodes, sizeof *skin->points);
     skin->nodes = memory_create(n_facets, sizeof *skin->nodes);
     skin->sides = curved ? memory_create(n_facets, sizeof *skin->sides) : NULL;
-    int status = outer && excluded && skin->points && skin->nodes && (skin->sides || !curved)
+    int status = outer && in_set && skin->points && skin->nodes && (skin->sides || !curved)
                      ? mark_outer(mesh, n_sides, outer)
                      : STATUS_MEMORY;
     if (!status) {
         memcpy(skin->points, mesh->X, mesh->n_nodes * sizeof *mesh->X);
-        for (size_t n = 0; exclude && n < exclude->n; n++)
-            excluded[exclude->nodes[n]] = true;
-        collect_skin(mesh, outer, excluded, skin);
+        for (size_t s = 0; s < n_excluded; s++)
+            exclude_sides(mesh, &mesh->sets[excluded[s]], in_set, outer);
+        collect_skin(mesh, outer, skin);
     } else {
         facets_reset(skin);
     }
     memory_free(outer);
-    memory_free(excluded);
+    memory_free(in_set);
     return status;
 }
 

@@ -101,12 +101,12 @@ void mesh_moments(const struct mesh *mesh, const double about[3], double *volume
 /** Determinant of the map from natural coordinates of element @p e at @p xi. */
 double mesh_jacobian(const struct mesh *mesh, size_t e, const double xi[3]);
 
-/** The skin of the mesh without the sides of elements all of whose nodes lie in @p exclude (NULL: none); node
- * numbers are those of the mesh, facets->points a copy of all mesh nodes. A side of a quadratic element is
- * cut into facets at its nodes: 2 segments, 4 triangles, 4 triangles and a quad, 4 quads. Free with
- * facets_reset.
+/** The skin of the mesh without the sides of elements all of whose nodes lie in one of the @p n_excluded sets
+ * @p excluded (indices); node numbers are those of the mesh, facets->points a copy of all mesh nodes. A side
+ * of a quadratic element is cut into facets at its nodes: 2 segments, 4 triangles, 4 triangles and a quad, 4
+ * quads. Free with facets_reset.
  */
-int mesh_skin(const struct mesh *mesh, const struct node_set *exclude, struct facets *skin);
+int mesh_skin(const struct mesh *mesh, const int *excluded, size_t n_excluded, struct facets *skin);
 
 /** Spatial dimension, nodes, VTK cell type and name of an element type ("quad4"). */
 int element_dim(enum element_type type);

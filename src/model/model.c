@@ -61,8 +61,10 @@ static void surfaces_reset(struct model *model)
     for (size_t i = 0; i < model->n_surfaces; i++) {
         struct model_surface *surface = &model->surfaces[i];
         memory_free(surface->name);
-        for (size_t p = 0; p < surface->n_parts; p++)
+        for (size_t p = 0; p < surface->n_parts; p++) {
             facets_reset(&surface->parts[p].facets);
+            memory_free(surface->parts[p].excluded);
+        }
         memory_free(surface->parts);
         motion_reset(&surface->motion);
         surface_build_reset(surface);

@@ -148,8 +148,9 @@ enum surface_kind { SURFACE_FACETS, SURFACE_PLANE, SURFACE_CYLINDER, SURFACE_SPH
 
 /** One part of a facet surface: the skin of a mesh or facets of its own. */
 struct surface_part {
-    int mesh;             /**< index into meshes, or -1: own facets */
-    int exclude_set;      /**< node set of the mesh whose facets do not count, or -1 */
+    int mesh; /**< index into meshes, or -1: own facets */
+    size_t n_excluded;
+    int *excluded;        /**< node sets of the mesh whose sides do not count */
     struct facets facets; /**< mesh = -1 */
 };
 
@@ -240,7 +241,8 @@ struct model_history {
     int mesh;     /**< point, rigid */
     int n_surfaces;
     int *surfaces;         /**< force */
-    double from[3], to[3]; /**< point, gauge: from; profile: both */
+    bool has_box;          /**< volume: only of the box from, to */
+    double from[3], to[3]; /**< point, gauge: from; profile, volume: both */
     int points;            /**< profile */
     struct location where;
 };

@@ -115,7 +115,7 @@ static int gathering_fill(struct gathering *gathering, const struct model *model
         struct facets skin = {0};
         if (part->mesh >= 0) {
             const struct mesh *mesh = &model->meshes[part->mesh].mesh;
-            CALL(mesh_skin(mesh, part->exclude_set >= 0 ? &mesh->sets[part->exclude_set] : NULL, &skin));
+            CALL(mesh_skin(mesh, part->excluded, part->n_excluded, &skin));
         }
         const struct facets *facets = part->mesh >= 0 ? &skin : &part->facets;
         int status =

@@ -273,8 +273,14 @@ static int profile_rows(const struct monitors *monitors, struct monitor *monitor
 static int volume_row(const struct monitors *monitors, struct monitor *monitor, double t)
 {
     const struct particles *block = fluid_particles(monitors->coupling->parts.fluid);
+    const struct model_history *definition = monitor->definition;
     double row[7] = {t, 0.0, 0.0, 0.0, INFINITY, -INFINITY, 0.0};
     for (size_t i = 0; i < block->n; ++i) {
+        bool counts = true;
+        for (int k = 0; definition->has_box && k < block->dim; ++k)
+            counts = counts && block->x[k][i] >= definition->from[k] && block->x[k][i] < definition->to[k];
+        if (!counts)
+            continue;
         if (block->kind[i] != PARTICLE_FLUID) {
             row[6] += 1.0;
             continue;

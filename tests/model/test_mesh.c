@@ -105,7 +105,7 @@ static void test_left_out(void **state)
         double centre[3], area[3];
         mesh_centre(&mesh, 0, centre);
         assert_true(fabs(centre[0] - (low[0] + 0.05)) < 1e-15 && fabs(centre[1] - (low[1] + 0.1)) < 1e-15);
-        assert_int_equal(mesh_skin(&mesh, NULL, &skin), 0);
+        assert_int_equal(mesh_skin(&mesh, NULL, 0, &skin), 0);
         assert_true(fabs(skin_volume(&skin, area) - volume) < 1e-14);
         for (int d = 0; d < dim; d++)
             assert_true(fabs(area[d]) < 1e-14);
@@ -155,7 +155,7 @@ static void test_skin_is_closed_and_faces_out(void **state)
         struct mesh mesh;
         struct facets skin;
         assert_int_equal(mesh_create_grid(&mesh, dim, lower, upper, (const int[3]){4, 3, 2}), 0);
-        assert_int_equal(mesh_skin(&mesh, NULL, &skin), 0);
+        assert_int_equal(mesh_skin(&mesh, NULL, 0, &skin), 0);
         assert_int_equal(skin.n_facets, dim == 2 ? 14 : 2 * (12 + 8 + 6));
         double area[3];
         const double volume = skin_volume(&skin, area);
@@ -163,9 +163,14 @@ static void test_skin_is_closed_and_faces_out(void **state)
             assert_true(fabs(area[i]) < 1e-15);
         assert_true(fabs(volume - 0.35101 * 0.02 * (dim == 3 ? 0.4 : 1)) < 1e-15);
         facets_reset(&skin);
-        assert_int_equal(mesh_skin(&mesh, mesh_find_set(&mesh, "x-"), &skin), 0);
-        assert_int_equal(skin.n_facets, dim == 2 ? 11 : 2 * (12 + 8 + 6) - 6);
-        facets_reset(&skin);
+        const int sides[2] = {(int)(mesh_find_set(&mesh, "x-") - mesh.sets),
+                              (int)(mesh_find_set(&mesh, "y+") - mesh.sets)};
+        for (size_t n = 1; n <= 2; n++) { /* what x- and y+ share is no side of either */
+            assert_int_equal(mesh_skin(&mesh, sides, n, &skin), 0);
+            const size_t right = dim == 2 ? 4 : 8;
+            assert_int_equal(skin.n_facets, (dim == 2 ? 11 : 2 * (12 + 8 + 6) - 6) - (n - 1) * right);
+            facets_reset(&skin);
+        }
         mesh_reset(&mesh);
     }
 }
@@ -183,7 +188,7 @@ static void test_skin_of_tetrahedron(void **state)
                               .X = X,
                               .connectivity = nodes};
     struct facets skin;
-    assert_int_equal(mesh_skin(&mesh, NULL, &skin), 0);
+    assert_int_equal(mesh_skin(&mesh, NULL, 0, &skin), 0);
     assert_int_equal(skin.n_facets, 4);
     double volume = 0;
     for (size_t f = 0; f < 4; f++) {
@@ -202,7 +207,7 @@ static void test_skin_of_tetrahedron(void **state)
                               .n_elements = 1,
                               .X = X,
                               .connectivity = nodes};
-    assert_int_equal(mesh_skin(&line, NULL, &skin), STATUS_DECK);
+    assert_int_equal(mesh_skin(&line, NULL, 0, &skin), STATUS_DECK);
 }
 
 static double monomial(const double x[3], int i, int j, int k)
@@ -344,7 +349,7 @@ static void test_conversion(void **state)
                                                                        : 8);
         }
         assert_true(fabs(volume - all) < 1e-15);
-        assert_int_equal(mesh_skin(&mesh, NULL, &skin), 0);
+        assert_int_equal(mesh_skin(&mesh, NULL, 0, &skin), 0);
         assert_int_equal(skin.n_facets, expected->facets);
         assert_true((skin.sides != NULL) == element_is_quadratic(mesh.type));
         for (size_t f = 0; f < skin.n_facets; f++) {
@@ -364,7 +369,8 @@ static void test_conversion(void **state)
             assert_true(fabs(area[i]) < 1e-15);
         assert_true(fabs(enclosed - all) < 1e-15);
         facets_reset(&skin);
-        assert_int_equal(mesh_skin(&mesh, set, &skin), 0);
+        const int number = (int)(set - mesh.sets);
+        assert_int_equal(mesh_skin(&mesh, &number, 1, &skin), 0);
         assert_true(skin.n_facets < expected->facets);
         facets_reset(&skin);
         mesh_reset(&mesh);

@@ -44,13 +44,12 @@ static void test_beam_on_cylinder(void **state)
     assert_int_equal(mesh_create_grid(&mesh.mesh, 2, (double[3]){0.24899, 0.19, 0}, (double[3]){0.6, 0.21, 0},
                                       (int[3]){35, 3, 0}),
                      0);
-    const int root = (int)(mesh_find_set(&mesh.mesh, "x-") - mesh.mesh.sets);
+    int root = (int)(mesh_find_set(&mesh.mesh, "x-") - mesh.mesh.sets);
     struct surface_part parts[2] = {
         {.mesh = -1,
-         .exclude_set = -1,
          .facets =
              {.dim = 2, .n_points = SEGMENTS + 1, .n_facets = SEGMENTS, .points = points, .nodes = nodes}},
-        {.mesh = 0, .exclude_set = root}};
+        {.mesh = 0, .n_excluded = 1, .excluded = &root}};
     struct model_surface surface = {.name = "obstacle", .kind = SURFACE_FACETS, .n_parts = 2, .parts = parts};
     const struct model model = {.path = "deck.xml", .dim = 2, .n_meshes = 1, .meshes = &mesh};
     assert_int_equal(surface_build(&model, &surface), 0);
@@ -99,9 +98,7 @@ static void test_within_part(void **state)
     double points[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1e-5, 0, 0}, {1e-11, 0, 0}};
     int32_t nodes[4][4] = {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 4, -1, -1}, {4, 0, -1, -1}};
     struct surface_part part = {
-        .mesh = -1,
-        .exclude_set = -1,
-        .facets = {.dim = 2, .n_points = 5, .n_facets = 4, .points = points, .nodes = nodes}};
+        .mesh = -1, .facets = {.dim = 2, .n_points = 5, .n_facets = 4, .points = points, .nodes = nodes}};
     struct model_surface surface = {.name = "s", .kind = SURFACE_FACETS, .n_parts = 1, .parts = &part};
     const struct model model = {.path = "deck.xml", .dim = 2};
     assert_int_equal(surface_build(&model, &surface), 0);
@@ -127,8 +124,8 @@ static void test_3d(void **state)
     int32_t quads[3][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}};
     int32_t triangles[6][4] = {{2, 6, 7, -1}, {2, 7, 3, -1}, {0, 4, 6, -1},
                                {0, 6, 2, -1}, {1, 3, 7, -1}, {1, 7, 5, -1}};
-    struct surface_part parts[2] = {{.mesh = -1, .exclude_set = -1, .facets = {3, 8, 3, points, quads}},
-                                    {.mesh = -1, .exclude_set = -1, .facets = {3, 8, 6, points, triangles}}};
+    struct surface_part parts[2] = {{.mesh = -1, .facets = {3, 8, 3, points, quads}},
+                                    {.mesh = -1, .facets = {3, 8, 6, points, triangles}}};
     struct model_surface surface = {.name = "cube", .kind = SURFACE_FACETS, .n_parts = 2, .parts = parts};
     const struct model model = {.path = "deck.xml", .dim = 3};
     assert_int_equal(surface_build(&model, &surface), 0);
@@ -168,9 +165,8 @@ static void test_curved_sides(void **state)
         int32_t nodes[1][4] = {{0, 1, dim == 3 ? 2 : -1, -1}};
         struct surface_part parts[2] = {
             {.mesh = -1,
-             .exclude_set = -1,
              .facets = {.dim = dim, .n_points = 3, .n_facets = 1, .points = points, .nodes = nodes}},
-            {.mesh = 0, .exclude_set = -1}};
+            {.mesh = 0}};
         struct model_surface definition = {
             .name = "wet", .kind = SURFACE_FACETS, .n_parts = 2, .parts = parts};
         const struct model model = {.path = "deck.xml",

@@ -59,7 +59,8 @@ def fluid(formulation, arithmetic, region, velocity=None):
 def histories(dim, solid=False, surfaces=""):
     """Every kind of history, a row a step."""
     place = " ".join(["0.2", "0.3", "0.2"][:dim])
-    rows = ['<history name="volume" type="volume"/>', '<history name="gauge" type="gauge" at="%s"/>' % place,
+    rows = ['<history name="volume" type="volume" lower="%s" upper="%s"/>' % (" ".join(["0.1"] * dim), place),
+            '<history name="gauge" type="gauge" at="%s"/>' % place,
             '<history name="energy" type="energy"/>', '<history name="force" type="force" surfaces="%s"/>' % surfaces,
             '<history name="profile" type="profile" from="%s" to="%s" points="3" every="3.1*dt"/>'
             % (" ".join(["0.1"] * dim), place)]

@@ -84,7 +84,7 @@ static void block_build(struct block_scene *b, enum element_type type)
     block_start(b, type);
     block_flood(b, -INFINITY);
     struct model_surface *surface = &b->scene.surface_definition;
-    b->parts[0] = (struct surface_part){.mesh = 0, .exclude_set = -1};
+    b->parts[0] = (struct surface_part){.mesh = 0};
     surface->parts = b->parts;
     surface->n_parts = 1;
     assert_int_equal(surface_build(&b->scene.model, surface), 0);
@@ -101,9 +101,10 @@ static void block_on_floor(struct block_scene *b)
     block_start(b, ELEMENT_QUAD4);
     block_flood(b, y + 0.02);
     struct model_surface *surface = &b->scene.surface_definition;
-    const struct node_set *foot = mesh_find_set(&b->mesh.mesh, "y-");
-    b->parts[0] = (struct surface_part){.mesh = 0, .exclude_set = (int)(foot - b->mesh.mesh.sets)};
-    b->parts[1] = (struct surface_part){.mesh = -1, .exclude_set = -1, .facets = {2, 4, 2, points, nodes}};
+    static int foot;
+    foot = (int)(mesh_find_set(&b->mesh.mesh, "y-") - b->mesh.mesh.sets);
+    b->parts[0] = (struct surface_part){.mesh = 0, .n_excluded = 1, .excluded = &foot};
+    b->parts[1] = (struct surface_part){.mesh = -1, .facets = {2, 4, 2, points, nodes}};
     surface->parts = b->parts;
     surface->n_parts = 2;
     assert_int_equal(surface_build(&b->scene.model, surface), 0);
@@ -485,12 +486,13 @@ static void test_two_surfaces(void **state)
     block_start(&b, ELEMENT_QUAD9);
     block_flood(&b, -INFINITY);
     struct scene *s = &b.scene;
+    int sets[2];
     memset(definitions, 0, sizeof definitions);
     s->model.surfaces = definitions;
     s->model.n_surfaces = 2;
     for (int k = 0; k < 2; ++k) {
-        const struct node_set *set = mesh_find_set(&b.mesh.mesh, without[k]);
-        parts[k] = (struct surface_part){.mesh = 0, .exclude_set = (int)(set - b.mesh.mesh.sets)};
+        sets[k] = (int)(mesh_find_set(&b.mesh.mesh, without[k]) - b.mesh.mesh.sets);
+        parts[k] = (struct surface_part){.mesh = 0, .n_excluded = 1, .excluded = &sets[k]};
         definitions[k].name = (char *)without[k];
         definitions[k].parts = &parts[k];
         definitions[k].n_parts = 1;
