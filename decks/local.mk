@@ -1,4 +1,7 @@
 nobase_dist_pkgdata_DATA += \
+	decks/balloon/README.md \
+	decks/balloon/balloon.xml \
+	decks/balloon/balloon_volume_analytic.csv \
 	decks/cylinder-2d2/README.md \
 	decks/cylinder-2d2/cylinder-2d2.xml \
 	decks/cylinder-2d2/schaefer_turek_bounds.csv \
