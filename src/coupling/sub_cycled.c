@@ -151,7 +151,7 @@ static void loads_shift(struct coupling *coupling)
         for (size_t p = 0; p < surface->n_points; ++p)
             for (int k = 0; k < 3; ++k)
                 c->ahead[p][k] = surface->level[1].a[p][k] - c->a[first + p][k];
-        surface_added_mass_apply(surface, (const double(*)[3])c->ahead, c->reaction);
+        surface_added_mass_apply(surface, (const double(*)[3])c->ahead, 0.0, c->reaction);
         memcpy(c->shift + first, c->reaction, surface->n_points * sizeof *c->shift);
         for (size_t p = 0; p < surface->n_points; ++p)
             for (int k = 0; k < 3; ++k)

@@ -225,6 +225,7 @@ void surface_destroy(struct surface *surface)
     memory_free(surface->nodes);
     memory_free(surface->sides);
     memory_free(surface->added_mass);
+    memory_free(surface->anchors);
     memory_free((char *)surface->fields.name);
     memory_free(surface);
 }
@@ -377,21 +378,35 @@ void surface_add_impulse(struct surface *surface, double dt, enum surface_load k
         }
 }
 
+/** Sum of the weighted rows of @p values. */
+static void anchors_gather(const struct anchor *anchors, uint32_t n, const double (*values)[3], double sum[3])
+{
+    sum[0] = sum[1] = sum[2] = 0.0;
+    for (uint32_t j = 0; j < n; ++j)
+        for (int k = 0; k < 3; ++k)
+            sum[k] += anchors[j].weight * values[anchors[j].point][k];
+}
+
 void surface_added_mass_apply(const struct surface *surface, const double (*acceleration)[3],
-                              double (*result)[3])
+                              double per_acceleration, double (*result)[3])
 {
     memset(result, 0, surface->n_points * sizeof *result);
     for (size_t c = 0; c < surface->n_added_mass; ++c) {
         const struct added_mass_contact *contact = &surface->added_mass[c];
-        double a[3] = {0.0, 0.0, 0.0}, f[3];
-        for (int j = 0; j < ELEMENT_MAX_NODES && contact->columns[j] >= 0; ++j)
-            for (int k = 0; k < 3; ++k)
-                a[k] += contact->column_weights[j] * acceleration[contact->columns[j]][k];
+        const struct anchor *rows = surface->anchors + contact->row;
+        const double damping = per_acceleration * contact->damping;
+        double a[3], own[3], f[3];
+        anchors_gather(surface->anchors + contact->column, contact->n_columns, acceleration, a);
+        if (contact->row == contact->column)
+            memcpy(own, a, sizeof own);
+        else
+            anchors_gather(rows, contact->n_rows, acceleration, own);
         for (int k = 0; k < 3; ++k)
-            f[k] = contact->tensor[k][0] * a[0] + contact->tensor[k][1] * a[1] + contact->tensor[k][2] * a[2];
-        for (int j = 0; j < ELEMENT_MAX_NODES && contact->rows[j] >= 0; ++j)
+            f[k] = contact->tensor[k][0] * a[0] + contact->tensor[k][1] * a[1] +
+                   contact->tensor[k][2] * a[2] + damping * own[k];
+        for (uint32_t j = 0; j < contact->n_rows; ++j)
             for (int k = 0; k < 3; ++k)
-                result[contact->rows[j]][k] += contact->row_weights[j] * f[k];
+                result[rows[j].point][k] += rows[j].weight * f[k];
     }
 }
 

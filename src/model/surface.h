@@ -16,14 +16,22 @@ struct surface_motion {
     double (*x)[3], (*v)[3], (*a)[3];
 };
 
-/** Derivative of the load by the surface's acceleration (numerics.md section 4): per contact a tensor whose
- * rows are spread by the shape functions of what takes the load and whose columns by those of what gave the
- * acceleration (facets; elements around wall particles). f += -T a is the fluid's reaction:
- * surface_added_mass_apply returns +T a. */
+/** A point of a surface and its weight. */
+struct anchor {
+    double weight;
+    int32_t point;
+};
+
+/** Derivative of the load by the surface's motion (numerics.md section 4): per contact a tensor whose rows
+ * are spread by the shape functions of what takes the load and whose columns by those of what gave the
+ * acceleration (facets; elements around wall particles), and what viscous forces have of the velocity of the
+ * former, alike in all directions. With velocities that change by b times the change of the acceleration a,
+ * f += -(T + b D) a is the fluid's reaction: surface_added_mass_apply returns +(T + b D) a. */
 struct added_mass_contact {
-    int32_t rows[ELEMENT_MAX_NODES], columns[ELEMENT_MAX_NODES]; /**< point numbers, -1 unused */
-    double row_weights[ELEMENT_MAX_NODES], column_weights[ELEMENT_MAX_NODES];
-    double tensor[3][3]; /**< kg */
+    size_t row, column;         /**< first of their anchors */
+    uint32_t n_rows, n_columns; /**< how many */
+    double tensor[3][3];        /**< T, kg */
+    double damping;             /**< D, kg/s */
 };
 
 /** The only thing fluid and solid share: points, optionally facets or an analytic shape, their motion at the
@@ -54,6 +62,8 @@ struct surface {
                          facets), N m */
     size_t n_added_mass, added_mass_capacity;
     struct added_mass_contact *added_mass;
+    struct anchor *anchors; /**< of its rows and columns */
+    size_t anchors_capacity;
     struct field_group fields; /**< named "surface-NAME" */
     struct field field_list[7];
 };
@@ -110,9 +120,10 @@ enum surface_load { SURFACE_LOAD_MEAN, SURFACE_LOAD_END };
  * := load. */
 void surface_add_impulse(struct surface *surface, double dt, enum surface_load kind);
 
-/** result[i] = sum of T accelerations over the contacts (rows of 3, n_points each); result is overwritten. */
+/** result[i] = sum of (T + b D) accelerations over the contacts (rows of 3, n_points each), b = @p
+ * per_acceleration (s): what an acceleration of 1 adds to the velocity. result is overwritten. */
 void surface_added_mass_apply(const struct surface *surface, const double (*acceleration)[3],
-                              double (*result)[3]);
+                              double per_acceleration, double (*result)[3]);
 
 /** Total load, and moment about @p centre (points at @c now). */
 void surface_total_load(const struct surface *surface, const double centre[3], double force[3],

@@ -79,14 +79,15 @@ void attachment_add_load(const struct attachment *attachment, double (*f)[3])
             f[attachment->nodes[k]][i] += attachment->surface->load[attachment->points[k]][i];
 }
 
-void attachment_add_added_mass(struct attachment *attachment, const double (*a)[3], double (*f)[3])
+void attachment_add_added_mass(struct attachment *attachment, const double (*a)[3], double per_acceleration,
+                               double (*f)[3])
 {
     /* points that are not on this solid keep acceleration 0 */
     for (size_t k = 0; k < attachment->n; k++)
         for (int i = 0; i < 3; i++)
             attachment->acceleration[attachment->points[k]][i] = a[attachment->nodes[k]][i];
     surface_added_mass_apply(attachment->surface, (const double(*)[3])attachment->acceleration,
-                             attachment->reaction);
+                             per_acceleration, attachment->reaction);
     for (size_t k = 0; k < attachment->n; k++)
         for (int i = 0; i < 3; i++)
             f[attachment->nodes[k]][i] += attachment->reaction[attachment->points[k]][i];

@@ -30,7 +30,9 @@ bool attachment_follow(const struct attachment *attachment, double (*d)[3]);
 /** f[node] += load of the points. */
 void attachment_add_load(const struct attachment *attachment, double (*f)[3]);
 
-/** f[node] += added mass of the surface applied to the nodes' accelerations @p a. */
-void attachment_add_added_mass(struct attachment *attachment, const double (*a)[3], double (*f)[3]);
+/** f[node] += added mass of the surface applied to the nodes' accelerations @p a; @p per_acceleration as in
+ * surface_added_mass_apply. */
+void attachment_add_added_mass(struct attachment *attachment, const double (*a)[3], double per_acceleration,
+                               double (*f)[3]);
 
 #endif

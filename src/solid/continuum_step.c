@@ -365,8 +365,8 @@ static int keep_factor(struct continuum *continuum)
     return 0;
 }
 
-/** z := J^-1 v, w := (J + (1 - alpha_f)/(beta dt^2) M_a) z (numerics: added mass of the attached surfaces).
- */
+/** z := J^-1 v, w := (J + (1 - alpha_f)/(beta dt^2) (M_a + gamma dt D)) z (numerics: added mass of the
+ * attached surfaces, and their damping unless loads are means, which know of accelerations only). */
 static int apply_added_mass(void *context, const double *v, double *z, double *w)
 {
     struct continuum *continuum = context;
@@ -379,6 +379,7 @@ static int apply_added_mass(void *context, const double *v, double *z, double *w
         flat(continuum->work)[continuum->component[e]] = z[e];
     for (size_t k = 0; k < continuum->solid->n_attachments; k++)
         attachment_add_added_mass(&continuum->solid->attachments[k], (const double(*)[3])continuum->work,
+                                  continuum->solid->mean_loads ? 0.0 : continuum->method.gamma * dt,
                                   continuum->work2);
     for (size_t e = 0; e < continuum->n_free; e++)
         w[e] = v[e] + factor * flat(continuum->work2)[continuum->component[e]];

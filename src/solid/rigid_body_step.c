@@ -538,7 +538,8 @@ static void added_mass_column(const struct rigid_body *body, const struct attach
         else
             cross(axes[mode - 3], r, a);
     }
-    surface_added_mass_apply(surface, (const double(*)[3])attachment->acceleration, attachment->reaction);
+    surface_added_mass_apply(surface, (const double(*)[3])attachment->acceleration,
+                             body->solid->mean_loads ? 0.0 : 0.5 * body->solid->dt, attachment->reaction);
     for (size_t n = 0; n < attachment->n; n++) {
         const double *f = attachment->reaction[attachment->points[n]];
         for (int i = 0; i < 3; i++)

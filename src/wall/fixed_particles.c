@@ -652,12 +652,15 @@ static int fixed_particles_added_mass(struct boundary *boundary, const struct fl
         struct surface *surface = boundary->surfaces[s];
         CALL(memory_grow((void **)&surface->added_mass, &surface->added_mass_capacity, surface->n_added_mass,
                          sizeof *surface->added_mass));
+        CALL(memory_grow((void **)&surface->anchors, &surface->anchors_capacity,
+                         f->material.n ? f->material.start[f->material.n] : 0, sizeof *surface->anchors));
     }
 #pragma omp parallel for schedule(static)
     for (size_t k = 0; k < f->material.n; ++k) {
         struct added_mass_contact *contact =
             &boundary->surfaces[f->material.surface[k]]->added_mass[f->tensor[k]];
-        material_points_contact(&f->material, k, contact);
+        material_points_contact(&f->material, boundary, k, contact);
+        contact->damping = 0.0;
         tensor_fill(boundary, view, f->material.particle[k], contact->tensor);
     }
     return 0;

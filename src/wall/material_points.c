@@ -133,14 +133,12 @@ void material_points_load(const struct material_points *material, struct boundar
             surface->load[material->points[j]][d] += material->weights[j] * force[d];
 }
 
-void material_points_contact(const struct material_points *material, size_t k,
-                             struct added_mass_contact *contact)
+void material_points_contact(const struct material_points *material, const struct boundary *boundary,
+                             size_t k, struct added_mass_contact *contact)
 {
-    const uint32_t first = material->start[k], n = material->start[k + 1] - first;
-    memcpy(contact->rows, material->points + first, n * sizeof *contact->rows);
-    memcpy(contact->row_weights, material->weights + first, n * sizeof *contact->row_weights);
-    if (n < ELEMENT_MAX_NODES)
-        contact->rows[n] = -1;
-    memcpy(contact->columns, contact->rows, sizeof contact->rows);
-    memcpy(contact->column_weights, contact->row_weights, sizeof contact->row_weights);
+    struct anchor *anchors = boundary->surfaces[material->surface[k]]->anchors;
+    contact->row = contact->column = material->start[k];
+    contact->n_rows = contact->n_columns = material->start[k + 1] - material->start[k];
+    for (uint32_t j = material->start[k]; j < material->start[k + 1]; ++j)
+        anchors[j] = (struct anchor){material->weights[j], material->points[j]};
 }

@@ -31,8 +31,9 @@ void material_points_motion(const struct material_points *material, const struct
 void material_points_load(const struct material_points *material, struct boundary *boundary, size_t k,
                           const double force[3]);
 
-/** Rows and columns of the added mass of material point @p k: its nodes. */
-void material_points_contact(const struct material_points *material, size_t k,
-                             struct added_mass_contact *contact);
+/** Rows and columns of the added mass of material point @p k: its nodes. They stand in the anchors of
+ * the surface, which has room for those of all material points. */
+void material_points_contact(const struct material_points *material, const struct boundary *boundary,
+                             size_t k, struct added_mass_contact *contact);
 
 #endif

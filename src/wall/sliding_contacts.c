@@ -138,35 +138,50 @@ bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t 
     return side < 0.0;
 }
 
-void sliding_contact_finish(const struct boundary *boundary, const struct hit *hit, struct contact *contact)
+int sliding_anchors(const struct boundary *boundary, const struct hit *hit, int32_t points[SIDE_MAX_NODES],
+                    double weights[SIDE_MAX_NODES])
 {
     const struct sliding *s = boundary->data;
-    const struct surface *surface = boundary->surfaces[hit->surface];
-    contact->surface = hit->surface;
-    contact->piece = hit->piece;
-    for (int k = 0; k < 3; ++k) {
-        contact->shift[k] = hit->shift[k];
-        contact->u[k] = contact->a[k] = 0.0;
-    }
+    int n = 1;
     for (int j = 0; j < SIDE_MAX_NODES; ++j)
-        contact->nodes[j] = -1;
-    if (!hit->piece) {
-        double at[3] = {contact->c[0] - hit->shift[0], contact->c[1] - hit->shift[1],
-                        contact->c[2] - hit->shift[2]};
-        motion_frame_place(&s->shapes[hit->surface].frame, at, contact->u, contact->a);
-        contact->nodes[0] = 0;
-        contact->nodes_weight[0] = 1.0;
+        points[j] = -1;
+    if (hit->piece) {
+        piece_weights(hit->piece, s->facets[hit->piece->facet].n_nodes, hit->at.closest, weights);
+        n = surface_spread(boundary->surfaces[hit->surface], (size_t)hit->facet, points, weights);
+    } else {
+        points[0] = 0;
+        weights[0] = 1.0;
+    }
+    return n;
+}
+
+/** Motion of the wall where near particle @p near has a contact. */
+static void contact_motion(const struct boundary *boundary, size_t near, struct contact *contact)
+{
+    const struct sliding *s = boundary->data;
+    const struct surface *surface = boundary->surfaces[contact->surface];
+    const size_t first = s->touch_start[near] + contact->first;
+    double u[3] = {0.0, 0.0, 0.0}, a[3] = {0.0, 0.0, 0.0};
+    if (!s->touches[first].piece) {
+        double at[3];
+        for (int k = 0; k < 3; ++k)
+            at[k] = contact->c[k] - contact->shift[k];
+        motion_frame_place(&s->shapes[contact->surface].frame, at, contact->u, contact->a);
         return;
     }
-    piece_weights(hit->piece, s->facets[hit->piece->facet].n_nodes, hit->at.closest, contact->nodes_weight);
-    int n_nodes = surface_spread(surface, (size_t)hit->facet, contact->nodes, contact->nodes_weight);
-    for (int j = 0; j < n_nodes; ++j) {
-        int32_t node = contact->nodes[j];
-        for (int k = 0; k < 3; ++k) {
-            contact->u[k] += contact->nodes_weight[j] * surface->now.v[node][k];
-            contact->a[k] += contact->nodes_weight[j] * surface->now.a[node][k];
+    for (size_t t = first; t < first + contact->n_touches; ++t) {
+        const int32_t *points = &s->anchor[t * s->anchors];
+        const double *weights = &s->anchor_weight[t * s->anchors];
+        for (size_t j = 0; j < s->anchors && points[j] >= 0; ++j) {
+            const double w = s->touches[t].part * weights[j];
+            for (int k = 0; k < 3; ++k) {
+                u[k] += w * surface->now.v[points[j]][k];
+                a[k] += w * surface->now.a[points[j]][k];
+            }
         }
     }
+    memcpy(contact->u, u, sizeof u);
+    memcpy(contact->a, a, sizeof a);
 }
 
 /** A block at the closest point, in the direction from the particle to it, with weight 1: the paper's. */
@@ -180,8 +195,6 @@ static void contact_at_point(struct contact *contact, const struct hit *hit, con
         contact->normal[k] = hit->normal[k];
         contact->e_r[k] = d > 0.0 ? (hit->place[k] - x[k]) / d : -hit->normal[k];
     }
-    for (int k = 0; k < SHARES; ++k)
-        contact->weight[k] = 1.0;
 }
 
 /** A block on the plane of a facet, at the foot point. */
@@ -248,11 +261,18 @@ static void hit_shares(const struct sliding *s, const struct hit *hit, double sh
     facet_shares_polygon(&s->shares, hit->at.d, piece->n, (const double(*)[2])corners, share);
 }
 
-/** Add a facet's shares to the contact of its plane, or make one. */
+static void whole_block(struct touch *touch)
+{
+    for (int k = 0; k < SHARES; ++k)
+        touch->weight[k] = 1.0;
+}
+
+/** Add a facet's shares to the touch of its plane, or make one. Returns the number of touches. */
 static size_t add_facet(const struct boundary *boundary, struct hit *hit, const double x[3],
-                        struct contact *contacts, const struct hit **owner, size_t n)
+                        struct sliding_work *work, size_t n)
 {
     const struct sliding *s = boundary->data;
+    const struct hit **owner = work->owners;
     double share[SHARES];
     hit_shares(s, hit, share);
     if (share[SHARE_DENSITY] == 0.0 && share[SHARE_PRESSURE] == 0.0 && share[SHARE_VISCOUS] == 0.0)
@@ -264,28 +284,26 @@ static size_t add_facet(const struct boundary *boundary, struct hit *hit, const 
              coplanar(s, owner[g]->normal, owner[g]->at.d, hit->normal, hit->at.d)))
         ++g;
     if (g == n || hit->at.distance < owner[g]->at.distance) {
-        struct contact *contact = &contacts[g];
-        if (g == n)
-            for (int k = 0; k < SHARES; ++k)
-                contact->weight[k] = 0.0;
-        contact_at_plane(contact, hit, x);
+        contact_at_plane(&work->contacts[g], hit, x);
         owner[g] = hit;
     }
     for (int k = 0; k < SHARES; ++k)
-        contacts[g].weight[k] += share[k];
+        work->touches[g].weight[k] = (g == n ? 0.0 : work->touches[g].weight[k]) + share[k];
     return g == n ? n + 1 : n;
 }
 
 /** In 3-D the sums at a front contact serve the weaker ones whose facets are turned by little: there are many
  * where facets are small. */
-static void share_sums(struct contact *contacts, size_t n)
+static void share_sums(struct sliding_work *work, size_t n)
 {
+    struct contact *contacts = work->contacts;
+    const struct touch *touches = work->touches;
     for (size_t k = 0; k < n; ++k) {
         if (!contacts[k].front)
             continue;
         size_t best = k;
         for (size_t l = 0; l < n; ++l) {
-            const double w = contacts[l].weight[SHARE_PRESSURE], most = contacts[best].weight[SHARE_PRESSURE];
+            const double w = touches[l].weight[SHARE_PRESSURE], most = touches[best].weight[SHARE_PRESSURE];
             if (contacts[l].front && (w > most || (w == most && l < best)) &&
                 dot(contacts[l].normal, contacts[k].normal) > SHARED_COSINE)
                 best = l;
@@ -299,45 +317,114 @@ static void share_sums(struct contact *contacts, size_t n)
 
 /** Back-facing facets use the sums of the strongest front contact; their viscous shares go to the front
  * contacts. */
-static void fold_back(const struct sliding *s, struct contact *contacts, size_t n)
+static void fold_back(const struct sliding *s, struct sliding_work *work, size_t n)
 {
+    struct contact *contacts = work->contacts;
+    struct touch *touches = work->touches;
     double front = 0.0, back = 0.0;
     size_t strongest = n;
     for (size_t k = 0; k < n; ++k) {
-        double viscous = contacts[k].weight[SHARE_VISCOUS] * facet_shares_viscous(&s->shares, contacts[k].d);
+        double viscous = touches[k].weight[SHARE_VISCOUS] * facet_shares_viscous(&s->shares, contacts[k].d);
         contacts[k].source = (int32_t)k;
         if (contacts[k].front) {
             front += viscous;
             if (strongest == n ||
-                contacts[k].weight[SHARE_PRESSURE] > contacts[strongest].weight[SHARE_PRESSURE])
+                touches[k].weight[SHARE_PRESSURE] > touches[strongest].weight[SHARE_PRESSURE])
                 strongest = k;
         } else {
             back += viscous;
         }
     }
     if (s->shares.kernel.dim == 3)
-        share_sums(contacts, n);
+        share_sums(work, n);
     double factor = front > 0.0 ? fmax(0.0, 1.0 + back / front) : 1.0;
     for (size_t k = 0; k < n; ++k) {
         if (contacts[k].front) {
-            contacts[k].weight[SHARE_VISCOUS] *= factor;
+            touches[k].weight[SHARE_VISCOUS] *= factor;
         } else {
-            contacts[k].weight[SHARE_VISCOUS] = 0.0;
+            touches[k].weight[SHARE_VISCOUS] = 0.0;
             if (strongest < n)
                 contacts[k].source = contacts[strongest].source;
         }
     }
 }
 
-/** Contacts of one particle with facet shares. */
+/** Whether touch @p k belongs to the contact of the one whose sums it uses. */
+static bool joins_source(const struct sliding_work *work, size_t k)
+{
+    const struct contact *contact = &work->contacts[k], *source = &work->contacts[contact->source];
+    return contact->front && contact->surface == source->surface && work->owners[k]->piece &&
+           work->owners[contact->source]->piece;
+}
+
+/** What of the force of a contact a touch takes: its part of the pressure's. */
+static double touch_strength(const struct sliding *s, const struct touch *touch)
+{
+    double moments[LAYER_MOMENTS], sum = 0.0;
+    for (int m = 0; m < s->shares.layers; ++m) {
+        facet_shares_layer(&s->shares, touch->d + (m + 0.5) * s->shares.dx, moments);
+        sum -= moments[LAYER_NORMAL];
+    }
+    return touch->weight[SHARE_PRESSURE] * sum;
+}
+
+/** Parts of the touches of a contact. */
+static void contact_part(const struct sliding *s, struct sliding_work *work, const struct contact *contact)
+{
+    const uint32_t *order = &work->order[contact->first];
+    double sum = 0.0;
+    for (uint32_t t = 0; t < contact->n_touches; ++t) {
+        struct touch *touch = &work->touches[order[t]];
+        touch->part = contact->n_touches > 1 ? touch_strength(s, touch) : 1.0;
+        sum += touch->part;
+    }
+    for (uint32_t t = 0; t < contact->n_touches; ++t)
+        work->touches[order[t]].part = sum > 0.0 ? work->touches[order[t]].part / sum : t == 0;
+}
+
+/** Put touches that join into one contact: work->order lists them by contact, first the one that has the
+ * sums. Returns the number of contacts. */
+static size_t bundle(const struct sliding *s, struct sliding_work *work, size_t n)
+{
+    struct contact *contacts = work->contacts;
+    const bool together = s->shares.kernel.dim == 3 && !s->paper;
+    size_t n_contacts = 0;
+    uint32_t placed = 0;
+    for (size_t k = 0; k < n; ++k) {
+        work->touches[k].piece = work->owners[k]->piece;
+        memcpy(work->touches[k].at, work->owners[k]->at.closest, sizeof work->touches[k].at);
+        work->touches[k].d = contacts[k].d;
+        if (together && contacts[k].source != (int32_t)k && joins_source(work, k))
+            continue;
+        contacts[k].first = placed;
+        work->order[placed++] = (uint32_t)k;
+        for (size_t l = 0; l < n && together && contacts[k].source == (int32_t)k; ++l)
+            if (l != k && contacts[l].source == (int32_t)k && joins_source(work, l))
+                work->order[placed++] = (uint32_t)l;
+        contacts[k].n_touches = placed - contacts[k].first;
+        contact_part(s, work, &contacts[k]);
+        contacts[k].tensor = n_contacts++; /* its number from now on */
+    }
+    for (size_t k = 0; k < n; ++k)
+        contacts[k].source = (int32_t)contacts[contacts[k].source].tensor;
+    n_contacts = 0;
+    for (size_t k = 0; k < n; ++k)
+        if (contacts[k].n_touches > 0)
+            contacts[n_contacts++] = contacts[k];
+    return n_contacts;
+}
+
+/** Contacts of one particle with facet shares, one for each touch. Returns their number; @p clear is the
+ * distance from the wall. */
 static size_t shares_contacts(const struct boundary *boundary, size_t near, const double x[3],
-                              struct sliding_work *work)
+                              struct sliding_work *work, double *clear)
 {
     const struct sliding *s = boundary->data;
     struct hit *hits = work->hits;
     double at[3] = {x[0], x[1], x[2]}, c[3], normal[3];
-    size_t n_hits = sliding_hits(boundary, near, at, hits), nearest, n = 0;
+    size_t n_hits = sliding_hits(boundary, near, at, hits), nearest = 0, n = 0;
     const bool apart = sliding_penetrated(s, hits, n_hits, at, c, normal, &nearest);
+    *clear = apart ? 0.0 : n_hits > 0 ? hits[nearest].at.distance : s->reach;
     if (apart) {
         for (int k = 0; k < 3; ++k)
             at[k] = c[k] + OUTSIDE_EVALUATE * s->shares.dx * normal[k];
@@ -347,7 +434,7 @@ static size_t shares_contacts(const struct boundary *boundary, size_t near, cons
     for (size_t h = 0; h < n_hits; ++h) {
         struct hit *hit = &hits[h];
         if (hit->piece && !flat) {
-            n = add_facet(boundary, hit, at, work->contacts, work->owners, n);
+            n = add_facet(boundary, hit, at, work, n);
         } else if (!hit->piece || hit == flat) {
             struct contact *contact = &work->contacts[n];
             sliding_hit_place(hit);
@@ -356,16 +443,17 @@ static size_t shares_contacts(const struct boundary *boundary, size_t near, cons
             else
                 contact_at_point(contact, hit, at);
             contact->front = true;
-            for (int k = 0; k < SHARES; ++k)
-                contact->weight[k] = 1.0;
+            whole_block(&work->touches[n]);
             work->owners[n++] = hit;
         }
     }
     for (size_t k = 0; k < n; ++k) {
-        sliding_contact_finish(boundary, work->owners[k], &work->contacts[k]);
         work->contacts[k].apart = apart;
+        work->contacts[k].n_touches = 0;
+        work->contacts[k].surface = work->owners[k]->surface;
+        memcpy(work->contacts[k].shift, work->owners[k]->shift, sizeof work->contacts[k].shift);
     }
-    fold_back(s, work->contacts, n);
+    fold_back(s, work, n);
     return n;
 }
 
@@ -404,8 +492,11 @@ static size_t paper_contacts(const struct boundary *boundary, size_t near, const
         contact_at_point(contact, &hits[h], x);
         contact->front = true;
         contact->apart = false;
-        contact->source = (int32_t)n++;
-        sliding_contact_finish(boundary, &hits[h], contact);
+        contact->source = (int32_t)n;
+        contact->surface = hits[h].surface;
+        memcpy(contact->shift, hits[h].shift, sizeof contact->shift);
+        whole_block(&work->touches[n]);
+        work->owners[n++] = &hits[h];
     }
     return n;
 }
@@ -440,32 +531,35 @@ static double block_kernel_sum(const struct sliding *s, double d)
 }
 
 /** Sum over the wall of share and kernel, of one near particle. */
-static double contacts_kernel_sum(const struct sliding *s, const struct contact *contacts, size_t n)
+static double touches_kernel_sum(const struct sliding *s, const struct touch *touches, size_t n)
 {
     double sum = 0.0;
-    for (size_t k = 0; k < n; ++k)
-        sum += contacts[k].weight[SHARE_DENSITY] * block_kernel_sum(s, contacts[k].d);
+    for (size_t t = 0; t < n; ++t)
+        sum += touches[t].weight[SHARE_DENSITY] * block_kernel_sum(s, touches[t].d);
     return sum;
 }
 
-/** Let a contact follow its facet: the place of the block and of the closest point, but not the weights. */
-static void contact_follow(const struct boundary *boundary, const double x[3], struct contact *contact)
+/** Let a contact follow its facets: the place of the block and of the closest point, but not the weights. */
+static void contact_follow(const struct boundary *boundary, size_t near, const double x[3],
+                           struct contact *contact)
 {
     const struct sliding *s = boundary->data;
-    struct hit hit = {.piece = contact->piece, .surface = contact->surface};
-    hit.facet = s->facets[contact->piece->facet].facet;
+    struct touch *touches = &s->touches[s->touch_start[near] + contact->first];
     double at[3];
-    for (int k = 0; k < 3; ++k) {
-        hit.shift[k] = contact->shift[k];
-        at[k] = x[k] - hit.shift[k];
+    for (int k = 0; k < 3; ++k)
+        at[k] = x[k] - contact->shift[k];
+    for (uint32_t t = 0; t < contact->n_touches; ++t) {
+        const double d = piece_plane_distance(touches[t].piece, at);
+        touches[t].d = contact->front ? fmax(0.0, d) : fmax(LEAST_BEHIND * s->shares.dx, -d);
     }
-    const bool front = contact->front;
-    projection_find(&hit.at, hit.piece, at, s->snap);
-    hit.at.d = front ? fmax(0.0, hit.at.d) : fmin(-LEAST_BEHIND * s->shares.dx, hit.at.d);
+    struct hit hit = {.piece = touches->piece, .at.d = contact->front ? touches->d : -touches->d};
+    memcpy(hit.at.closest, touches->at, sizeof hit.at.closest);
+    memcpy(hit.shift, contact->shift, sizeof hit.shift);
     sliding_hit_place(&hit);
+    const bool front = contact->front;
     contact_at_plane(contact, &hit, x);
     contact->front = front;
-    sliding_contact_finish(boundary, &hit, contact);
+    contact_motion(boundary, near, contact);
 }
 
 /** Contacts of one near particle for surfaces of solids that moved a little since they were found; false if
@@ -481,25 +575,68 @@ static bool contacts_follow(struct boundary *boundary, const struct fluid_view *
         if (contacts[k].apart)
             return false;
     for (size_t k = 0; k < n; ++k)
-        if (contacts[k].piece && boundary->surfaces[contacts[k].surface]->coupled)
-            contact_follow(boundary, x, &contacts[k]);
-    boundary->kernel_sum[near] = contacts_kernel_sum(s, contacts, n);
+        if (boundary->surfaces[contacts[k].surface]->coupled &&
+            s->touches[s->touch_start[near] + contacts[k].first].piece)
+            contact_follow(boundary, near, x, &contacts[k]);
+    boundary->kernel_sum[near] =
+        touches_kernel_sum(s, &s->touches[s->touch_start[near]], s->touch_count[near]);
     return true;
 }
 
-/** Contacts of one near particle into its slots; returns how many there are, stored only if they fit. */
-static size_t particle_contacts(struct boundary *boundary, const struct fluid_view *view, size_t near,
-                                struct sliding_work *work)
+/** Contacts of one near particle into its slots; the counts say how many there are, they are stored only if
+ * they fit. */
+static void particle_contacts(struct boundary *boundary, const struct fluid_view *view, size_t near,
+                              struct sliding_work *work)
 {
     struct sliding *s = boundary->data;
     const uint32_t i = boundary->near[near];
     const double x[3] = {view->particles->x[0][i], view->particles->x[1][i], view->particles->x[2][i]};
-    size_t n = s->paper ? paper_contacts(boundary, near, x, work) : shares_contacts(boundary, near, x, work);
-    if (n > s->contact_start[near + 1] - s->contact_start[near])
-        return n;
-    memcpy(&s->contacts[s->contact_start[near]], work->contacts, n * sizeof *work->contacts);
-    boundary->kernel_sum[near] = contacts_kernel_sum(s, work->contacts, n);
-    return n;
+    double clear = 0.0;
+    const size_t n =
+        s->paper ? paper_contacts(boundary, near, x, work) : shares_contacts(boundary, near, x, work, &clear);
+    const size_t n_contacts = bundle(s, work, n), first = s->touch_start[near];
+    s->contact_count[near] = (uint32_t)n_contacts;
+    s->touch_count[near] = (uint32_t)n;
+    if (n > s->touch_start[near + 1] - first ||
+        n_contacts > s->contact_start[near + 1] - s->contact_start[near])
+        return;
+    struct contact *contacts = &s->contacts[s->contact_start[near]];
+    memcpy(contacts, work->contacts, n_contacts * sizeof *contacts);
+    for (size_t t = 0; t < n; ++t) {
+        int32_t points[SIDE_MAX_NODES];
+        double weights[SIDE_MAX_NODES];
+        s->touches[first + t] = work->touches[work->order[t]];
+        sliding_anchors(boundary, work->owners[work->order[t]], points, weights);
+        memcpy(&s->anchor[(first + t) * s->anchors], points, s->anchors * sizeof *points);
+        memcpy(&s->anchor_weight[(first + t) * s->anchors], weights, s->anchors * sizeof *weights);
+    }
+    for (size_t k = 0; k < n_contacts; ++k)
+        contact_motion(boundary, near, &contacts[k]);
+    boundary->kernel_sum[near] = touches_kernel_sum(s, &s->touches[first], n);
+    s->clear[near] = clear;
+    memcpy(s->clear_x[near], x, sizeof x);
+}
+
+/** Make room where the counts are larger. */
+static void room_grow(size_t n, const uint32_t *counts, size_t *start)
+{
+    size_t offset = 0;
+    for (size_t near = 0; near < n; ++near) {
+        const size_t room = start[near + 1] - start[near];
+        start[near] = offset;
+        offset += counts[near] > room ? counts[near] + 1 : room;
+    }
+    start[n] = offset;
+}
+
+int sliding_reserve_contacts(struct sliding *s, size_t n)
+{
+    const size_t touches = s->touch_start[n];
+    CALL(memory_grow((void **)&s->contacts, &s->contacts_capacity, s->contact_start[n], sizeof *s->contacts));
+    CALL(memory_grow((void **)&s->touches, &s->touches_capacity, touches, sizeof *s->touches));
+    CALL(memory_grow((void **)&s->anchor, &s->anchor_capacity, touches * s->anchors, sizeof *s->anchor));
+    return memory_grow((void **)&s->anchor_weight, &s->anchor_weight_capacity, touches * s->anchors,
+                       sizeof *s->anchor_weight);
 }
 
 int sliding_prepare(struct boundary *boundary, const struct fluid_view *view, bool again)
@@ -509,30 +646,32 @@ int sliding_prepare(struct boundary *boundary, const struct fluid_view *view, bo
     // in 2-D contacts are cheap enough to find them anew
     again = again && s->shares.kernel.dim == 3 && !s->paper;
     sliding_place(boundary, again);
+    bool follow = again;
     int full;
     do {
         full = 0;
 #pragma omp parallel for schedule(dynamic, 16) reduction(max : full)
         for (size_t near = 0; near < n; ++near) {
-            struct sliding_work *work = &s->work[omp_get_thread_num()];
-            if (again && contacts_follow(boundary, view, near))
+            if (follow && contacts_follow(boundary, view, near))
                 continue;
-            size_t count = particle_contacts(boundary, view, near, work);
-            s->contact_count[near] = (uint32_t)count;
-            if (count > s->contact_start[near + 1] - s->contact_start[near])
+            particle_contacts(boundary, view, near, &s->work[omp_get_thread_num()]);
+            if (s->contact_count[near] > s->contact_start[near + 1] - s->contact_start[near] ||
+                s->touch_count[near] > s->touch_start[near + 1] - s->touch_start[near])
                 full = 1;
         }
-        if (!full)
-            break;
-        size_t offset = 0;
-        for (size_t near = 0; near < n; ++near) {
-            size_t room = s->contact_start[near + 1] - s->contact_start[near], count = s->contact_count[near];
-            s->contact_start[near] = offset;
-            offset += count > room ? count + 1 : room;
+        if (full) {
+            room_grow(n, s->contact_count, s->contact_start);
+            room_grow(n, s->touch_count, s->touch_start);
+            CALL(sliding_reserve_contacts(s, n));
+            follow = false; /* what there was has lost its place */
         }
-        s->contact_start[n] = offset;
-        CALL(memory_grow((void **)&s->contacts, &s->contacts_capacity, offset, sizeof *s->contacts));
     } while (full);
+    if (again)
+        return 0;
+    for (size_t k = 0; k < boundary->n_surfaces; ++k)
+        memcpy(s->wall_x[k], boundary->surfaces[k]->now.x,
+               boundary->surfaces[k]->n_points * sizeof **s->wall_x);
+    s->clear_current = true;
     return 0;
 }
 
@@ -543,31 +682,56 @@ static void put_particle(struct boundary *boundary, size_t near, double mass, st
     struct sliding *s = boundary->data;
     const uint32_t i = boundary->near[near];
     struct hit *hits = s->work[0].hits;
-    double x[3] = {particles->x[0][i], particles->x[1][i], particles->x[2][i]}, normal[3];
-    struct contact contact;
+    double x[3] = {particles->x[0][i], particles->x[1][i], particles->x[2][i]}, c[3], normal[3];
     size_t n = sliding_hits(boundary, near, x, hits), nearest;
-    if (!sliding_penetrated(s, hits, n, x, contact.c, normal, &nearest))
+    if (!sliding_penetrated(s, hits, n, x, c, normal, &nearest))
         return;
     const struct hit *hit = &hits[nearest];
-    sliding_contact_finish(boundary, hit, &contact);
+    const struct surface *surface = boundary->surfaces[hit->surface];
+    int32_t points[SIDE_MAX_NODES];
+    double weights[SIDE_MAX_NODES], u[3] = {0.0, 0.0, 0.0}, a[3], at[3];
+    const int n_points = sliding_anchors(boundary, hit, points, weights);
+    for (int k = 0; k < 3; ++k)
+        at[k] = c[k] - hit->shift[k];
+    if (hit->piece)
+        for (int j = 0; j < n_points; ++j)
+            for (int k = 0; k < 3; ++k)
+                u[k] += weights[j] * surface->now.v[points[j]][k];
+    else
+        motion_frame_place(&s->shapes[hit->surface].frame, at, u, a);
     double inward = 0.0, impulse[3], arm[3];
     for (int k = 0; k < 3; ++k)
-        inward += (particles->u[k][i] - contact.u[k]) * normal[k];
+        inward += (particles->u[k][i] - u[k]) * normal[k];
     inward = fmin(0.0, inward);
     for (int k = 0; k < 3; ++k) {
-        particles->x[k][i] = contact.c[k] + OUTSIDE_PUT_BACK * s->shares.dx * normal[k];
+        particles->x[k][i] = c[k] + OUTSIDE_PUT_BACK * s->shares.dx * normal[k];
         particles->u[k][i] -= inward * normal[k];
         impulse[k] = mass * inward * normal[k];
-        arm[k] = contact.c[k] - hit->shift[k] - s->shapes[hit->surface].centre[k];
+        arm[k] = at[k] - s->shapes[hit->surface].centre[k];
     }
-    for (int j = 0; j < SIDE_MAX_NODES && contact.nodes[j] >= 0; ++j)
+    for (int j = 0; j < n_points; ++j)
         for (int k = 0; k < 3; ++k)
-            s->pending[hit->surface][contact.nodes[j]][k] += contact.nodes_weight[j] * impulse[k];
+            s->pending[hit->surface][points[j]][k] += weights[j] * impulse[k];
     if (!hit->piece)
         for (int k = 0; k < 3; ++k)
             s->pending_moment[hit->surface][k] +=
                 arm[(k + 1) % 3] * impulse[(k + 2) % 3] - arm[(k + 2) % 3] * impulse[(k + 1) % 3];
     ++boundary->put_back_count;
+}
+
+/** How far facets have moved since contacts were found; infinite if that is not known. */
+static double wall_moved(const struct boundary *boundary)
+{
+    const struct sliding *s = boundary->data;
+    double moved = s->clear_current ? 0.0 : INFINITY;
+    for (size_t k = 0; k < boundary->n_surfaces && s->clear_current; ++k) {
+        const struct surface *surface = boundary->surfaces[k];
+        if (surface->definition->kind != SURFACE_FACETS && surface->moving)
+            return INFINITY; /* its centre does not tell */
+        for (size_t i = 0; i < surface->n_points && surface->moving; ++i)
+            moved = fmax(moved, distance(surface->now.x[i], s->wall_x[k][i]));
+    }
+    return moved;
 }
 
 int sliding_put_back(struct boundary *boundary, const struct fluid_view *view, struct particles *particles)
@@ -581,10 +745,14 @@ int sliding_put_back(struct boundary *boundary, const struct fluid_view *view, s
         memset(s->pending_moment[k], 0, sizeof *s->pending_moment);
     }
     sliding_place(boundary, false);
-#pragma omp parallel for schedule(dynamic, 16)
+    const double moved = wall_moved(boundary);
+#pragma omp parallel for schedule(dynamic, 64)
     for (size_t near = 0; near < boundary->n_near; ++near) {
         const uint32_t i = boundary->near[near];
         const double x[3] = {particles->x[0][i], particles->x[1][i], particles->x[2][i]};
+        s->put[near] = false;
+        if (s->clear_current && s->clear[near] > moved + distance(x, s->clear_x[near]))
+            continue; /* neither can have come through the other */
         struct hit *hits = s->work[omp_get_thread_num()].hits;
         double c[3], normal[3];
         size_t n = sliding_hits(boundary, near, x, hits), nearest;

@@ -91,20 +91,16 @@ static void block_axes(int dim, const double e_r[3], double e_s[3], double e_t[3
     }
 }
 
-/** Linear pressure field in the block, from the sums of the contact's source (eqs. 33, 34). */
+/** Linear pressure field behind the wall, from the sums of the contact's source (eqs. 33, 34). */
 static void contact_pressure(const struct sliding *s, const struct fluid_view *view,
                              const struct contact *source, struct contact *contact)
 {
-    double gradient[3], e_s[3], e_t[3], from[3];
+    double from[3];
     for (int k = 0; k < 3; ++k) {
-        gradient[k] = s->gradient ? source->mean_rho * (view->body_force[k] - source->a[k]) : 0.0;
+        contact->gradient[k] = s->gradient ? source->mean_rho * (view->body_force[k] - source->a[k]) : 0.0;
         from[k] = contact->o[k] - source->mean_r[k];
     }
-    block_axes(view->dim, contact->e_r, e_s, e_t);
-    contact->p0 = source->mean_p + dot(from, gradient);
-    contact->p_slope[0] = view->spacing * dot(contact->e_r, gradient);
-    contact->p_slope[1] = view->spacing * dot(e_s, gradient);
-    contact->p_slope[2] = view->spacing * dot(e_t, gradient);
+    contact->p0 = source->mean_p + dot(from, contact->gradient);
 }
 
 /** What the viscous term needs of the sums of another contact. */
@@ -139,19 +135,34 @@ int sliding_close(struct boundary *boundary, const struct fluid_view *view)
     return 0;
 }
 
-/** Append the block of a contact; @p source is its number. */
+void sliding_touch_direction(const struct contact *contact, const struct touch *touches, uint32_t t,
+                             double e_r[3])
+{
+    const double side = contact->front ? -1.0 : 1.0;
+    for (int k = 0; k < 3; ++k)
+        e_r[k] = t == 0 ? contact->e_r[k] : side * touches[t].piece->normal[k];
+}
+
+/** Append the block behind touch @p t of a contact; @p source is the contact's number. */
 static void pack_block(const struct sliding *s, const struct fluid_view *view, const struct contact *contact,
-                       int32_t source, double mass, struct wall_neighbours *out)
+                       const struct touch *touches, uint32_t t, int32_t source, double mass,
+                       struct wall_neighbours *out)
 {
     const struct kernel *kernel = &view->kernel;
+    const struct touch *touch = &touches[t];
     const int q = s->shares.layers, side = view->dim > 1 ? q - 1 : 0, depth = view->dim > 2 ? q - 1 : 0;
     const double dx = view->spacing, rc2 = kernel->support * kernel->support,
                  per_c2 = 1.0 / (view->sound_speed * view->sound_speed);
-    double e_s[3], e_t[3];
-    block_axes(view->dim, contact->e_r, e_s, e_t);
+    const double *gradient = contact->gradient;
+    double e_r[3], e_s[3], e_t[3], p0 = contact->p0;
+    sliding_touch_direction(contact, touches, t, e_r);
+    block_axes(view->dim, e_r, e_s, e_t);
+    for (int k = 0; k < 3 && t > 0; ++k) /* from the foot point on the first plane to that on this one */
+        p0 += (touch->d * e_r[k] - contact->d * contact->e_r[k]) * gradient[k];
+    const double slope[3] = {dx * dot(e_r, gradient), dx * dot(e_s, gradient), dx * dot(e_t, gradient)};
     for (int m = 0; m < q; ++m) {
-        const double height = (m + 0.5) * dx, y = contact->d + height;
-        const double f = contact->weight[SHARE_VISCOUS] != 0.0 ? height / contact->layer : 0.0;
+        const double height = (m + 0.5) * dx, y = touch->d + height;
+        const double f = touch->weight[SHARE_VISCOUS] != 0.0 ? height / contact->layer : 0.0;
         for (int a = -side; a <= side; ++a)
             for (int b = -depth; b <= depth; ++b) {
                 const double r2 = y * y + (double)(a * a + b * b) * dx * dx;
@@ -162,110 +173,161 @@ static void pack_block(const struct sliding *s, const struct fluid_view *view, c
                 out->r[n] = r;
                 out->w[n] = kernel_w(kernel, r);
                 out->dw[n] = kernel_dw(kernel, r);
-                out->p[n] = contact->p0 + (m + 0.5) * contact->p_slope[0] + a * contact->p_slope[1] +
-                            b * contact->p_slope[2];
+                out->p[n] = p0 + (m + 0.5) * slope[0] + a * slope[1] + b * slope[2];
                 out->rho[n] = out->p[n] * per_c2 + view->density;
                 out->volume[n] = mass / out->rho[n];
                 for (int k = 0; k < 3; ++k) {
-                    out->dx[k][n] = -(y * contact->e_r[k] + a * dx * e_s[k] + b * dx * e_t[k]);
+                    out->dx[k][n] = -(y * e_r[k] + a * dx * e_s[k] + b * dx * e_t[k]);
                     out->u[k][n] = contact->u[k];
                     out->u_viscous[k][n] = (1.0 + f) * contact->u[k] - f * contact->mean_u[k];
                     out->a[k][n] = contact->a[k];
                     out->normal[k][n] = contact->normal[k];
                 }
-                out->share_density[n] = contact->weight[SHARE_DENSITY];
-                out->share_pressure[n] = contact->weight[SHARE_PRESSURE];
-                out->share_viscous[n] = contact->weight[SHARE_VISCOUS];
+                out->share_density[n] = touch->weight[SHARE_DENSITY];
+                out->share_pressure[n] = touch->weight[SHARE_PRESSURE];
+                out->share_viscous[n] = touch->weight[SHARE_VISCOUS];
                 out->source[n] = source;
             }
     }
 }
 
-/** What a neighbour of a contact's block does not share with its place. */
-static void pack_common(const struct contact *contact, double mass, double p, double density, double per_c2,
-                        int32_t source, struct wall_neighbours *out, size_t n)
+/** Append a neighbour that stands for many particles behind a contact: all but its places and weights. */
+static size_t pack_common(const struct fluid_view *view, const struct contact *contact, double mass, double p,
+                          int32_t source, struct wall_neighbours *out)
 {
+    const size_t n = out->n++;
     out->p[n] = p;
-    out->rho[n] = p * per_c2 + density;
+    out->rho[n] = p / (view->sound_speed * view->sound_speed) + view->density;
     out->volume[n] = mass / out->rho[n];
     for (int k = 0; k < 3; ++k) {
         out->u[k][n] = out->u_viscous[k][n] = contact->u[k];
         out->a[k][n] = contact->a[k];
         out->normal[k][n] = contact->normal[k];
     }
-    out->share_density[n] = 0.0;
-    out->share_pressure[n] = contact->weight[SHARE_PRESSURE];
-    out->share_viscous[n] = 0.0;
+    out->share_density[n] = out->share_viscous[n] = 0.0;
+    out->share_pressure[n] = 1.0;
     out->source[n] = source;
+    return n;
 }
 
-/** Append two neighbours at one spacing on either side along @p axis that stand for what a layer's pressure
- * gradient along it does. */
-static void pack_tangents(const struct fluid_view *view, const struct contact *contact,
-                          const double moments[LAYER_MOMENTS], double p, double slope, const double axis[3],
-                          double mass, int32_t source, struct wall_neighbours *out)
+/** What the particles of one layer behind all touches of a contact add up to. */
+struct layer_sums {
+    double kernel;    /**< of share_density W */
+    double normal[3]; /**< of share_pressure W' y/r e_r */
+    double place[3];  /**< of share_pressure W' y/r times the place, from the particle */
+    double strength;  /**< of share_pressure W' y/r */
+    double viscous;   /**< of share_viscous W'/r */
+    double tangent;   /**< of share_pressure W' s^2/r */
+};
+
+static void layer_sum(const struct sliding *s, const struct contact *contact, const struct touch *touches,
+                      double height, struct layer_sums *sums)
 {
-    const double dx = view->spacing, per_c2 = 1.0 / (view->sound_speed * view->sound_speed);
-    for (int side = -1; side <= 1; side += 2) {
-        const size_t n = out->n++;
-        pack_common(contact, mass, p + side * slope, view->density, per_c2, source, out, n);
+    *sums = (struct layer_sums){0};
+    for (uint32_t t = 0; t < contact->n_touches; ++t) {
+        const double y = touches[t].d + height, *weight = touches[t].weight;
+        double moments[LAYER_MOMENTS], e_r[3];
+        facet_shares_layer(&s->shares, y, moments);
+        sliding_touch_direction(contact, touches, t, e_r);
+        const double strength = weight[SHARE_PRESSURE] * moments[LAYER_NORMAL];
+        for (int k = 0; k < 3; ++k) {
+            sums->normal[k] += strength * e_r[k];
+            sums->place[k] += strength * y * e_r[k];
+        }
+        sums->kernel += weight[SHARE_DENSITY] * moments[LAYER_W];
+        sums->strength += strength;
+        sums->viscous += weight[SHARE_VISCOUS] * moments[LAYER_VISCOUS];
+        sums->tangent += weight[SHARE_PRESSURE] * moments[LAYER_TANGENT];
+    }
+}
+
+/** What the layers' particles at both sides of their middles add up to: share_pressure W' s^2/r, and the
+ * pressure in the middle. */
+struct tangent_sums {
+    double sum, p;
+};
+
+/** Append two neighbours at one spacing on either side that stand for what the pressure's gradient along the
+ * wall does. */
+static void pack_tangents(const struct fluid_view *view, const struct contact *contact,
+                          const struct tangent_sums *tangent, double mass, int32_t source,
+                          struct wall_neighbours *out)
+{
+    const double dx = view->spacing, across = dot(contact->gradient, contact->e_r);
+    double along[3], slope = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        along[k] = contact->gradient[k] - across * contact->e_r[k];
+        slope += along[k] * along[k];
+    }
+    slope = sqrt(slope);
+    for (int side = -1; side <= 1 && slope > 0.0; side += 2) {
+        const size_t n = pack_common(view, contact, mass, tangent->p + side * dx * slope, source, out);
         out->r[n] = dx;
         out->w[n] = 0.0;
-        out->dw[n] = 0.5 * moments[LAYER_TANGENT] / dx;
+        out->dw[n] = 0.5 * tangent->sum / dx;
         for (int k = 0; k < 3; ++k)
-            out->dx[k][n] = -side * dx * axis[k];
+            out->dx[k][n] = -side * dx * along[k] / slope;
     }
 }
 
-/** Append the block of a contact by the moments of its layers instead of its particles: one neighbour right
- * behind the wall for each layer, and four beside it where the pressure varies along the wall. To first order
- * in that variation the sums are the block's. */
+/** Append the blocks of a contact by the moments of their layers instead of their particles: one neighbour
+ * right behind the wall for each layer, and (pack_tangents) two beside it where the pressure varies along the
+ * wall. To first order in that variation the sums are the blocks'. */
 static void pack_layers(const struct sliding *s, const struct fluid_view *view, const struct contact *contact,
-                        int32_t source, double mass, struct wall_neighbours *out)
+                        const struct touch *touches, int32_t source, double mass, struct wall_neighbours *out,
+                        struct tangent_sums *tangent)
 {
-    const double dx = view->spacing, per_c2 = 1.0 / (view->sound_speed * view->sound_speed);
-    double e_s[3], e_t[3];
-    block_axes(view->dim, contact->e_r, e_s, e_t);
+    const double dx = view->spacing;
+    *tangent = (struct tangent_sums){0.0, 0.0};
     for (int m = 0; m < s->shares.layers; ++m) {
-        const double height = (m + 0.5) * dx, y = contact->d + height;
-        const double p = contact->p0 + (m + 0.5) * contact->p_slope[0], f = height / contact->layer;
-        double moments[LAYER_MOMENTS];
-        facet_shares_layer(&s->shares, y, moments);
-        if (!(moments[LAYER_NORMAL] < 0.0))
+        const double height = (m + 0.5) * dx, f = height / contact->layer;
+        struct layer_sums sums;
+        layer_sum(s, contact, touches, height, &sums);
+        const double length = sqrt(dot(sums.normal, sums.normal));
+        if (!(length > 0.0) && sums.viscous == 0.0)
             break;
-        const size_t n = out->n++;
-        pack_common(contact, mass, p, view->density, per_c2, source, out, n);
-        out->r[n] = y;
-        out->w[n] = moments[LAYER_W];
-        out->dw[n] = moments[LAYER_NORMAL];
-        out->share_density[n] = contact->weight[SHARE_DENSITY];
-        out->share_viscous[n] =
-            contact->weight[SHARE_VISCOUS] * moments[LAYER_VISCOUS] * y / moments[LAYER_NORMAL];
+        double p = contact->p0, r = 0.0;
         for (int k = 0; k < 3; ++k) {
-            out->dx[k][n] = -y * contact->e_r[k];
-            if (contact->weight[SHARE_VISCOUS] != 0.0)
+            const double place = sums.strength != 0.0 ? sums.place[k] / sums.strength
+                                                      : (contact->d + height) * contact->e_r[k];
+            p += (place - contact->d * contact->e_r[k]) * contact->gradient[k];
+            r -= length > 0.0 ? place * sums.normal[k] / length : -place * contact->e_r[k];
+        }
+        const size_t n = pack_common(view, contact, mass, p, source, out);
+        /* the sum points from the particle, or towards it where facets seen from behind take away */
+        const double sign = r < 0.0 ? -1.0 : 1.0;
+        out->r[n] = fabs(r);
+        out->w[n] = sums.kernel;
+        out->dw[n] = length > 0.0 ? -sign * length : sums.viscous * r;
+        out->share_density[n] = 1.0;
+        out->share_pressure[n] = length > 0.0;
+        out->share_viscous[n] = sums.viscous * fabs(r) / out->dw[n];
+        for (int k = 0; k < 3; ++k) {
+            out->dx[k][n] = length > 0.0 ? sign * fabs(r) * sums.normal[k] / length : -r * contact->e_r[k];
+            if (sums.viscous != 0.0)
                 out->u_viscous[k][n] = (1.0 + f) * contact->u[k] - f * contact->mean_u[k];
         }
-        if (contact->p_slope[1] != 0.0)
-            pack_tangents(view, contact, moments, p, contact->p_slope[1], e_s, mass, source, out);
-        if (contact->p_slope[2] != 0.0)
-            pack_tangents(view, contact, moments, p, contact->p_slope[2], e_t, mass, source, out);
+        tangent->sum += sums.tangent;
+        tangent->p += sums.tangent * p;
     }
+    if (tangent->sum != 0.0)
+        tangent->p /= tangent->sum;
 }
 
-/** Append what stands for the block of a contact in the sweeps: in 3-D its layers, except where walls are as
- * published. */
-static void pack(const struct sliding *s, const struct fluid_view *view, const struct contact *contact,
-                 int32_t source, double mass, struct wall_neighbours *out)
+/** Whether layers stand for the blocks in the sweeps: in 3-D, except where walls are as published. */
+static bool has_layers(const struct sliding *s)
 {
-    if (view->dim == 3 && !s->paper)
-        pack_layers(s, view, contact, source, mass, out);
-    else
-        pack_block(s, view, contact, source, mass, out);
+    return s->shares.kernel.dim == 3 && !s->paper;
 }
 
-static int gather(const struct boundary *boundary, const struct fluid_view *view, size_t near, bool unfolded,
-                  struct wall_neighbours *neighbours)
+/** Touches of contact @p contact of a near particle. */
+static const struct touch *touches_of(const struct sliding *s, size_t near, const struct contact *contact)
+{
+    return &s->touches[s->touch_start[near] + contact->first];
+}
+
+int sliding_gather(const struct boundary *boundary, const struct fluid_view *view, size_t near,
+                   struct wall_neighbours *neighbours)
 {
     const struct sliding *s = boundary->data;
     const struct contact *contacts = &s->contacts[s->contact_start[near]];
@@ -273,21 +335,32 @@ static int gather(const struct boundary *boundary, const struct fluid_view *view
     const double mass = view->particles->m[boundary->near[near]];
     CALL(wall_neighbours_reserve(neighbours, n * s->block));
     neighbours->n = 0;
-    for (size_t k = 0; k < n; ++k)
-        (unfolded ? pack_block : pack)(s, view, &contacts[k], (int32_t)k, mass, neighbours);
+    for (size_t k = 0; k < n; ++k) {
+        const struct touch *touches = touches_of(s, near, &contacts[k]);
+        struct tangent_sums tangent;
+        if (!has_layers(s)) {
+            pack_block(s, view, &contacts[k], touches, 0, (int32_t)k, mass, neighbours);
+            continue;
+        }
+        pack_layers(s, view, &contacts[k], touches, (int32_t)k, mass, neighbours, &tangent);
+        pack_tangents(view, &contacts[k], &tangent, mass, (int32_t)k, neighbours);
+    }
     return 0;
-}
-
-int sliding_gather(const struct boundary *boundary, const struct fluid_view *view, size_t near,
-                   struct wall_neighbours *neighbours)
-{
-    return gather(boundary, view, near, false, neighbours);
 }
 
 int sliding_unfold(const struct boundary *boundary, const struct fluid_view *view, size_t near,
                    struct wall_neighbours *neighbours)
 {
-    return gather(boundary, view, near, true, neighbours);
+    const struct sliding *s = boundary->data;
+    const struct contact *contacts = &s->contacts[s->contact_start[near]];
+    const double mass = view->particles->m[boundary->near[near]];
+    CALL(wall_neighbours_reserve(neighbours, s->touch_count[near] * s->block));
+    neighbours->n = 0;
+    for (size_t k = 0; k < s->contact_count[near]; ++k)
+        for (uint32_t t = 0; t < contacts[k].n_touches; ++t)
+            pack_block(s, view, &contacts[k], touches_of(s, near, &contacts[k]), t, (int32_t)k, mass,
+                       neighbours);
+    return 0;
 }
 
 void sliding_react(struct boundary *boundary, size_t near, const struct wall_neighbours *neighbours,
@@ -303,11 +376,17 @@ void sliding_react(struct boundary *boundary, size_t near, const struct wall_nei
 }
 
 /** Spread a contact's force over the points of its surface. */
-static void contact_load(const struct sliding *s, struct surface *surface, const struct contact *contact)
+static void contact_load(const struct sliding *s, size_t near, struct surface *surface,
+                         const struct contact *contact)
 {
-    for (int j = 0; j < SIDE_MAX_NODES && contact->nodes[j] >= 0; ++j)
-        for (int k = 0; k < 3; ++k)
-            surface->load[contact->nodes[j]][k] += contact->nodes_weight[j] * contact->force[k];
+    const size_t first = s->touch_start[near] + contact->first;
+    for (size_t t = first; t < first + contact->n_touches; ++t) {
+        const int32_t *points = &s->anchor[t * s->anchors];
+        const double *weights = &s->anchor_weight[t * s->anchors];
+        for (size_t j = 0; j < s->anchors && points[j] >= 0; ++j)
+            for (int k = 0; k < 3; ++k)
+                surface->load[points[j]][k] += s->touches[t].part * weights[j] * contact->force[k];
+    }
     if (surface->definition->kind == SURFACE_FACETS)
         return;
     double arm[3];
@@ -338,57 +417,131 @@ void sliding_load(struct boundary *boundary, const struct fluid_view *view)
     for (size_t near = 0; near < boundary->n_near; ++near)
         for (size_t k = 0; k < s->contact_count[near]; ++k) {
             const struct contact *contact = &s->contacts[s->contact_start[near] + k];
-            contact_load(s, boundary->surfaces[contact->surface], contact);
+            contact_load(s, near, boundary->surfaces[contact->surface], contact);
         }
     if (boundary->put_back_count > 0 && view->dt > 0.0)
         pending_load(s, boundary, view->dt);
 }
 
 /** T = -sum_k (V_i^2 + V_k^2) W' w_g rho_i / (rho_i + rho_k) <rho> e_k (x) (r_k - <r>), e_k from the particle
- * to k. */
-static void contact_tensor(const struct fluid_view *view, uint32_t i, const struct contact *contact,
-                           const struct contact *source, const struct wall_neighbours *block,
-                           double tensor[3][3])
+ * to k; D = -sum_k (V_i^2 + V_k^2) W'/r w_v eta (1 + f). @p same: the accelerations are of the same surface.
+ */
+static void contact_tensor(const struct sliding *s, const struct fluid_view *view, uint32_t i,
+                           const struct contact *contact, const struct contact *source, bool same,
+                           const struct wall_neighbours *block, double tangent,
+                           struct added_mass_contact *out)
 {
     const double rho = view->particles->rho[i], volume = view->particles->m[i] / rho;
     double from[3];
     for (int k = 0; k < 3; ++k)
         from[k] = contact->o[k] - contact->d * contact->e_r[k] - source->mean_r[k];
-    memset(tensor, 0, 9 * sizeof(double));
+    const bool accelerated = same && s->gradient;
+    /* the layers' own particles stand for theirs on both sides */
+    const double beside = accelerated ? -volume * volume * tangent * source->mean_rho : 0.0;
+    for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+            out->tensor[k][l] = beside * ((k == l) - contact->e_r[k] * contact->e_r[l]);
+    out->damping = 0.0;
     for (size_t n = 0; n < block->n; ++n) {
-        double factor = (volume * volume + block->volume[n] * block->volume[n]) * block->dw[n] *
-                        block->share_pressure[n] * rho / (rho + block->rho[n]) * source->mean_rho /
-                        block->r[n];
-        for (int k = 0; k < 3; ++k)
+        const double pair =
+            (volume * volume + block->volume[n] * block->volume[n]) * block->dw[n] / block->r[n];
+        const double factor =
+            pair * block->share_pressure[n] * rho / (rho + block->rho[n]) * source->mean_rho;
+        for (int k = 0; k < 3 && accelerated; ++k)
             for (int l = 0; l < 3; ++l)
-                tensor[k][l] += factor * block->dx[k][n] * (from[l] - block->dx[l][n]);
+                out->tensor[k][l] += factor * block->dx[k][n] * (from[l] - block->dx[l][n]);
+        if (block->share_viscous[n] != 0.0) {
+            double height = -contact->d;
+            for (int k = 0; k < 3; ++k)
+                height -= block->dx[k][n] * contact->e_r[k];
+            out->damping -=
+                pair * block->share_viscous[n] * view->viscosity * (1.0 + height / contact->layer);
+        }
     }
 }
 
-/** Whether a contact's load depends on the acceleration of its own surface. */
-static bool has_tensor(const struct boundary *boundary, const struct contact *contact,
-                       const struct contact *source)
-{
-    return boundary->surfaces[contact->surface]->coupled && contact->surface == source->surface &&
-           contact->weight[SHARE_PRESSURE] != 0.0;
-}
-
+/** Number the contacts with surfaces of solids, and lay out their anchors. */
 static int reserve_tensors(struct boundary *boundary)
 {
     const struct sliding *s = boundary->data;
     for (size_t k = 0; k < boundary->n_surfaces; ++k)
         boundary->surfaces[k]->n_added_mass = 0;
-    for (size_t near = 0; s->gradient && near < boundary->n_near; ++near) {
+    for (size_t near = 0; near < boundary->n_near; ++near) {
         struct contact *contacts = &s->contacts[s->contact_start[near]];
         for (size_t k = 0; k < s->contact_count[near]; ++k) {
-            bool has = has_tensor(boundary, &contacts[k], &contacts[contacts[k].source]);
-            contacts[k].tensor = has ? boundary->surfaces[contacts[k].surface]->n_added_mass++ : SIZE_MAX;
+            struct surface *surface = boundary->surfaces[contacts[k].surface];
+            contacts[k].tensor = surface->coupled ? surface->n_added_mass++ : SIZE_MAX;
         }
     }
     for (size_t k = 0; k < boundary->n_surfaces; ++k) {
         struct surface *surface = boundary->surfaces[k];
         CALL(memory_grow((void **)&surface->added_mass, &surface->added_mass_capacity, surface->n_added_mass,
                          sizeof *surface->added_mass));
+    }
+    for (size_t k = 0; k < boundary->n_surfaces; ++k) {
+        struct surface *surface = boundary->surfaces[k];
+        size_t anchors = 0;
+        for (size_t near = 0; surface->coupled && near < boundary->n_near; ++near)
+            for (size_t c = s->contact_start[near]; c < s->contact_start[near] + s->contact_count[near]; ++c)
+                if (s->contacts[c].surface == (int32_t)k) {
+                    surface->added_mass[s->contacts[c].tensor].row = anchors;
+                    anchors += s->contacts[c].n_touches * s->anchors;
+                }
+        CALL(memory_grow((void **)&surface->anchors, &surface->anchors_capacity, anchors,
+                         sizeof *surface->anchors));
+    }
+    return 0;
+}
+
+/** Points that take the load of a contact: those of all touches, each once. */
+static void contact_rows(const struct sliding *s, size_t near, const struct contact *contact,
+                         struct anchor *anchors, struct added_mass_contact *out)
+{
+    struct anchor *rows = anchors + out->row;
+    const size_t first = s->touch_start[near] + contact->first;
+    uint32_t n = 0;
+    for (size_t t = first; t < first + contact->n_touches; ++t)
+        for (size_t j = t * s->anchors; j < (t + 1) * s->anchors && s->anchor[j] >= 0; ++j) {
+            uint32_t row = 0;
+            while (row < n && rows[row].point != s->anchor[j])
+                ++row;
+            if (row == n)
+                rows[n++] = (struct anchor){0.0, s->anchor[j]};
+            rows[row].weight += s->touches[t].part * s->anchor_weight[j];
+        }
+    out->n_rows = n;
+}
+
+/** Rows, then tensors of the contacts of a near particle. */
+static int near_tensors(const struct boundary *boundary, const struct fluid_view *view, size_t near,
+                        struct wall_neighbours *block)
+{
+    const struct sliding *s = boundary->data;
+    const struct contact *contacts = &s->contacts[s->contact_start[near]];
+    const uint32_t i = boundary->near[near];
+    CALL(wall_neighbours_reserve(block, s->block));
+    for (size_t k = 0; k < s->contact_count[near]; ++k) {
+        const struct surface *surface = boundary->surfaces[contacts[k].surface];
+        if (contacts[k].tensor != SIZE_MAX)
+            contact_rows(s, near, &contacts[k], surface->anchors, &surface->added_mass[contacts[k].tensor]);
+    }
+    for (size_t k = 0; k < s->contact_count[near]; ++k) {
+        const struct contact *contact = &contacts[k], *source = &contacts[contact->source];
+        if (contact->tensor == SIZE_MAX)
+            continue;
+        struct added_mass_contact *list = boundary->surfaces[contact->surface]->added_mass,
+                                  *out = &list[contact->tensor];
+        const bool same = contact->surface == source->surface;
+        out->column = same ? list[source->tensor].row : out->row;
+        out->n_columns = same ? list[source->tensor].n_rows : out->n_rows;
+        const struct touch *touches = touches_of(s, near, contact);
+        struct tangent_sums tangent = {0.0, 0.0};
+        block->n = 0;
+        if (has_layers(s))
+            pack_layers(s, view, contact, touches, (int32_t)k, view->particles->m[i], block, &tangent);
+        else
+            pack_block(s, view, contact, touches, 0, (int32_t)k, view->particles->m[i], block);
+        contact_tensor(s, view, i, contact, source, same, block, tangent.sum, out);
     }
     return 0;
 }
@@ -397,33 +550,10 @@ int sliding_added_mass(struct boundary *boundary, const struct fluid_view *view)
 {
     const struct sliding *s = boundary->data;
     CALL(reserve_tensors(boundary));
-    if (!s->gradient)
-        return 0;
     int status = 0;
 #pragma omp parallel for schedule(dynamic, 16) reduction(| : status)
-    for (size_t near = 0; near < boundary->n_near; ++near) {
-        struct wall_neighbours *block = &s->work[omp_get_thread_num()].neighbours;
-        const uint32_t i = boundary->near[near];
-        const struct contact *contacts = &s->contacts[s->contact_start[near]];
-        for (size_t k = 0; k < s->contact_count[near]; ++k) {
-            const struct contact *contact = &contacts[k], *source = &contacts[contact->source];
-            if (contact->tensor == SIZE_MAX)
-                continue;
-            block->n = 0;
-            if (wall_neighbours_reserve(block, s->block)) {
-                status = STATUS_MEMORY;
-                break;
-            }
-            pack(s, view, contact, (int32_t)k, view->particles->m[i], block);
-            struct added_mass_contact *out =
-                &boundary->surfaces[contact->surface]->added_mass[contact->tensor];
-            memcpy(out->rows, contact->nodes, sizeof contact->nodes);
-            memcpy(out->columns, source->nodes, sizeof source->nodes);
-            memcpy(out->row_weights, contact->nodes_weight, sizeof contact->nodes_weight);
-            memcpy(out->column_weights, source->nodes_weight, sizeof source->nodes_weight);
-            out->rows[SIDE_MAX_NODES] = out->columns[SIDE_MAX_NODES] = -1;
-            contact_tensor(view, i, contact, source, block, out->tensor);
-        }
-    }
+    for (size_t near = 0; near < boundary->n_near; ++near)
+        if (!status)
+            status = near_tensors(boundary, view, near, &s->work[omp_get_thread_num()].neighbours);
     return status;
 }

@@ -158,8 +158,15 @@ static int sliding_allocate(struct boundary *boundary, struct sliding *s)
     CHECK_MEMORY(s->shapes = memory_create(boundary->n_surfaces, sizeof *s->shapes));
     CHECK_MEMORY(s->pending_moment = memory_create(boundary->n_surfaces, sizeof *s->pending_moment));
     CHECK_MEMORY(s->pending = memory_create(boundary->n_surfaces, sizeof *s->pending));
-    for (size_t k = 0; k < boundary->n_surfaces; ++k)
-        CHECK_MEMORY(s->pending[k] = memory_create(boundary->surfaces[k]->n_points, sizeof **s->pending));
+    CHECK_MEMORY(s->wall_x = memory_create(boundary->n_surfaces, sizeof *s->wall_x));
+    for (size_t k = 0; k < boundary->n_surfaces; ++k) {
+        const struct surface *surface = boundary->surfaces[k];
+        CHECK_MEMORY(s->pending[k] = memory_create(surface->n_points, sizeof **s->pending));
+        CHECK_MEMORY(s->wall_x[k] = memory_create(surface->n_points, sizeof **s->wall_x));
+        const size_t curved = surface->dim == 2 ? 3 : SIDE_MAX_NODES, plane = surface->dim == 2 ? 2 : 4;
+        s->anchors =
+            (surface->sides ? curved : plane) > s->anchors ? (surface->sides ? curved : plane) : s->anchors;
+    }
     s->n_work = (size_t)omp_get_max_threads();
     CHECK_MEMORY(s->work = memory_create(s->n_work, sizeof *s->work));
     return 0;
@@ -189,18 +196,26 @@ static void sliding_destroy(struct boundary *boundary)
     if (!s)
         return;
     facet_shares_reset(&s->shares);
-    for (size_t k = 0; s->pending && k < boundary->n_surfaces; ++k)
-        memory_free(s->pending[k]);
+    for (size_t k = 0; k < boundary->n_surfaces; ++k) {
+        if (s->pending)
+            memory_free(s->pending[k]);
+        if (s->wall_x)
+            memory_free(s->wall_x[k]);
+    }
     for (size_t k = 0; s->work && k < s->n_work; ++k) {
         memory_free(s->work[k].hits);
         memory_free(s->work[k].contacts);
+        memory_free(s->work[k].touches);
         memory_free(s->work[k].owners);
+        memory_free(s->work[k].order);
         wall_neighbours_reset(&s->work[k].neighbours);
     }
     void *const arrays[] = {
-        s->facets,        s->pieces,        s->shapes, s->candidates, s->candidate_start, s->pairs,
-        s->stamp,         s->pair_particle, s->mask,   s->count,      s->contact_start,   s->put,
-        s->contact_count, s->contacts,      s->work,   s->pending,    s->pending_moment};
+        s->facets,      s->pieces,        s->shapes,        s->candidates, s->candidate_start,
+        s->pairs,       s->stamp,         s->pair_particle, s->mask,       s->count,
+        s->contacts,    s->contact_start, s->contact_count, s->touches,    s->touch_start,
+        s->touch_count, s->anchor,        s->anchor_weight, s->clear,      s->clear_x,
+        s->wall_x,      s->put,           s->work,          s->pending,    s->pending_moment};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
         memory_free(arrays[k]);
     memory_free(s);
@@ -426,9 +441,13 @@ static int reserve_contacts(struct boundary *boundary)
     const size_t n = boundary->n_near;
     CALL(
         memory_grow((void **)&s->contact_start, &s->contact_start_capacity, n + 1, sizeof *s->contact_start));
+    CALL(memory_grow((void **)&s->touch_start, &s->touch_start_capacity, n + 1, sizeof *s->touch_start));
     CALL(memory_grow((void **)&s->contact_count, &s->contact_count_capacity, n, sizeof *s->contact_count));
+    CALL(memory_grow((void **)&s->touch_count, &s->touch_count_capacity, n, sizeof *s->touch_count));
+    CALL(memory_grow((void **)&s->clear, &s->clear_capacity, n, sizeof *s->clear));
+    CALL(memory_grow((void **)&s->clear_x, &s->clear_x_capacity, n, sizeof *s->clear_x));
     CALL(memory_grow((void **)&s->put, &s->put_capacity, n, sizeof *s->put));
-    size_t most = 0, offset = 0;
+    size_t most = 0, contacts = 0, touches = 0;
     for (size_t k = 0; k < n; ++k) {
         size_t hits = 0, first = s->candidate_start[k], end = s->candidate_start[k + 1];
         for (size_t c = first; c < end; ++c) {
@@ -436,19 +455,24 @@ static int reserve_contacts(struct boundary *boundary)
             hits += item < s->n_facets && s->facets[item].n_nodes == 4 ? 4 : 1;
         }
         most = hits > most ? hits : most;
-        s->contact_start[k] = offset;
-        offset += end - first < 4 ? end - first : 4;
-        s->contact_count[k] = 0;
+        s->contact_start[k] = contacts;
+        s->touch_start[k] = touches;
+        contacts += end - first < 2 ? end - first : 2;
+        touches += end - first < 4 ? end - first : 4;
+        s->contact_count[k] = s->touch_count[k] = 0;
     }
-    s->contact_start[n] = offset;
-    CALL(memory_grow((void **)&s->contacts, &s->contacts_capacity, offset, sizeof *s->contacts));
+    s->contact_start[n] = contacts;
+    s->touch_start[n] = touches;
+    s->clear_current = false;
     for (size_t t = 0; t < s->n_work; ++t) {
         struct sliding_work *work = &s->work[t];
         CALL(memory_grow((void **)&work->hits, &work->hits_capacity, most, sizeof *work->hits));
         CALL(memory_grow((void **)&work->contacts, &work->contacts_capacity, most, sizeof *work->contacts));
+        CALL(memory_grow((void **)&work->touches, &work->touches_capacity, most, sizeof *work->touches));
         CALL(memory_grow((void **)&work->owners, &work->owners_capacity, most, sizeof *work->owners));
+        CALL(memory_grow((void **)&work->order, &work->order_capacity, most, sizeof *work->order));
     }
-    return 0;
+    return sliding_reserve_contacts(s, n);
 }
 
 static int sliding_list(struct boundary *boundary, const struct fluid_view *view)

@@ -10,29 +10,39 @@
  * sliding_contacts.c: contact points; sliding_forces.c: values of the virtual particles, packed neighbours,
  * loads). */
 
-/** A block of virtual boundary particles behind a wall, of one near particle. Places are in the image of the
- * particle. */
-struct contact {
-    double c[3];      /**< closest point of the wall: sums, wall motion and load belong there */
-    double o[3];      /**< the block stands here */
-    double d;         /**< distance from the particle to o */
-    double e_r[3];    /**< from the particle to o */
-    double normal[3]; /**< into the fluid */
-    double shift[3];  /**< of the wall's image */
+/** What one facet, or an analytic surface, adds to a contact. Its points and their weights (shape functions
+ * at the closest point) stand in the lists of the treatment, anchors of them. */
+struct touch {
+    const struct piece *piece; /**< NULL: analytic */
+    double at[2];              /**< closest point in the axes of the piece */
+    double d;                  /**< distance of the particle from its plane */
     double weight[SHARES];
-    double u[3], a[3];                             /**< of the wall at c */
+    double part; /**< of the contact's force that it takes, and of its motion that is the contact's; they add
+                    up to 1 */
+};
+
+/** Virtual boundary particles behind a wall, of one near particle: a block behind each touch, all with the
+ * same smoothed values and the same motion of the wall. In 3-D facets turned by little against the strongest
+ * one share a contact with it; otherwise each has its own. Places are in the image of the particle; they, and
+ * the directions, are those of the first touch, the strongest. */
+struct contact {
+    double c[3];                                   /**< closest point of the wall: sums belong there */
+    double o[3];                                   /**< the block stands here */
+    double d;                                      /**< distance from the particle to o */
+    double e_r[3];                                 /**< from the particle to o */
+    double normal[3];                              /**< into the fluid */
+    double shift[3];                               /**< of the wall's image */
+    double u[3], a[3];                             /**< of the wall, by the parts of the touches */
     double mean_p, mean_rho, mean_u[3], mean_r[3]; /**< smoothed values at c (eqs. 32-34, 36) */
     double layer;                                  /**< d_f: distance of the centroid from the wall */
-    double p0, p_slope[3];                         /**< p_k = p0 + slope . (m_r + 1/2, m_s, m_t) */
+    double p0, gradient[3];                        /**< p_k = p0 + gradient . (r_k - o) */
     double force[3];                               /**< on the wall, N */
-    double nodes_weight[SIDE_MAX_NODES];
-    int32_t nodes[SIDE_MAX_NODES]; /**< points of the surface that take the load, -1 unused */
+    uint32_t first, n_touches;                     /**< among the touches of the near particle */
     int32_t surface;
     int32_t source; /**< contact of the same particle whose sums are used: itself, or another one's source */
     size_t tensor;  /**< where its added mass stands in the surface's list, or SIZE_MAX */
-    const struct piece *piece; /**< what the wall point lies on; NULL: analytic */
-    bool front;                /**< the particle is on the fluid side */
-    bool apart;                /**< the particle has penetrated: evaluated from another place */
+    bool front;     /**< the particle is on the fluid side */
+    bool apart;     /**< the particle has penetrated: evaluated from another place */
 };
 
 /** The wall point closest to a place, of one candidate. */
@@ -62,11 +72,14 @@ struct sliding_shape {
     struct motion_frame frame;
 };
 
+/** Room for one particle; in the making each touch is a contact of its own, number k of both. */
 struct sliding_work {
     struct hit *hits;
     struct contact *contacts;
-    const struct hit **owners; /**< hit of each contact */
-    size_t hits_capacity, contacts_capacity, owners_capacity;
+    struct touch *touches;
+    const struct hit **owners; /**< hit of each touch */
+    uint32_t *order;           /**< touches by contact */
+    size_t hits_capacity, contacts_capacity, touches_capacity, owners_capacity, order_capacity;
     struct wall_neighbours neighbours;
 };
 
@@ -92,8 +105,20 @@ struct sliding {
 
     struct contact *contacts; /**< of near particle k: from contact_start[k], contact_count[k] of them */
     size_t contacts_capacity, *contact_start, contact_start_capacity;
-    uint32_t *contact_count;
-    size_t contact_count_capacity;
+    uint32_t *contact_count, *touch_count;
+    size_t contact_count_capacity, touch_count_capacity;
+    struct touch *touches; /**< of near particle k: from touch_start[k], touch_count[k] of them */
+    size_t touches_capacity, *touch_start, touch_start_capacity;
+    size_t anchors; /**< points of a touch: number j of touch t stands at anchors * t + j, -1 unused */
+    int32_t *anchor;
+    double *anchor_weight;
+    size_t anchor_capacity, anchor_weight_capacity;
+
+    /* 3-D: what tells that a particle cannot have penetrated since contacts were found */
+    bool clear_current;
+    double *clear; /**< distance of near particle k from the wall then; 0 if it had penetrated */
+    double (*clear_x)[3], (**wall_x)[3]; /**< where near particles and the surfaces' points were */
+    size_t clear_capacity, clear_x_capacity;
 
     size_t n_work;
     struct sliding_work *work; /**< one per thread */
@@ -119,8 +144,17 @@ void sliding_hit_place(struct hit *hit);
 bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t n, const double x[3],
                         double c[3], double normal[3], size_t *nearest);
 
-/** Nodes, weights, velocity and acceleration of the wall at contact point c of @p hit. */
-void sliding_contact_finish(const struct boundary *boundary, const struct hit *hit, struct contact *contact);
+/** Points of the wall at the closest point of @p hit and their weights, -1 behind the last of at most
+ * SIDE_MAX_NODES; analytic: the centre. Returns their number. */
+int sliding_anchors(const struct boundary *boundary, const struct hit *hit, int32_t points[SIDE_MAX_NODES],
+                    double weights[SIDE_MAX_NODES]);
+
+/** Direction from near particle to the plane of touch @p t of a contact (0: the first). */
+void sliding_touch_direction(const struct contact *contact, const struct touch *touches, uint32_t t,
+                             double e_r[3]);
+
+/** Room for the contacts and touches that the starts of @p n near particles lay out. */
+int sliding_reserve_contacts(struct sliding *sliding, size_t n);
 
 /** The operations of the treatment (sph/boundary.h) that live in the other files. */
 int sliding_prepare(struct boundary *boundary, const struct fluid_view *view, bool again);

@@ -230,17 +230,22 @@ static void test_added_mass(void **state)
     struct surface *s = f.surface;
     s->added_mass = memory_create(1, sizeof *s->added_mass);
     s->n_added_mass = 1;
-    s->added_mass[0] = (struct added_mass_contact){{0, 1, -1, -1},
-                                                   {1, 2, -1, -1},
-                                                   {0.3, 0.7, 0.0, 0.0},
-                                                   {0.6, 0.4, 0.0, 0.0},
-                                                   {{1.0, 2.0, 0.0}, {0.0, 3.0, 0.0}, {0.0, 0.0, 0.0}}};
+    s->added_mass[0] =
+        (struct added_mass_contact){0, 2, 2, 2, {{1.0, 2.0, 0.0}, {0.0, 3.0, 0.0}, {0.0, 0.0, 0.0}}, 5.0};
+    s->anchors = memory_create(4, sizeof *s->anchors);
+    s->anchors[0] = (struct anchor){0.3, 0};
+    s->anchors[1] = (struct anchor){0.7, 1};
+    s->anchors[2] = (struct anchor){0.6, 1};
+    s->anchors[3] = (struct anchor){0.4, 2};
     const double a[3][3] = {{9.0, 9.0, 9.0}, {1.0, 0.0, 0.0}, {0.0, 2.0, 0.0}};
     double result[3][3];
-    surface_added_mass_apply(s, a, result); // T (0.6, 0.8) = (2.2, 2.4)
+    surface_added_mass_apply(s, a, 0.0, result); // T (0.6, 0.8) = (2.2, 2.4)
     assert_true(fabs(result[0][0] - 0.66) < 1e-15 && fabs(result[0][1] - 0.72) < 1e-15);
     assert_true(fabs(result[1][0] - 1.54) < 1e-15 && fabs(result[1][1] - 1.68) < 1e-15);
     assert_true(result[2][0] == 0.0);
+    surface_added_mass_apply(s, a, 0.2, result); // and 0.2 * 5 (3.4, 2.7, 2.7)
+    assert_true(fabs(result[0][0] - 0.3 * 5.6) < 1e-15 && fabs(result[1][1] - 0.7 * 5.1) < 1e-14);
+    assert_true(fabs(result[1][2] - 0.7 * 2.7) < 1e-15);
     teardown(&f);
 }
 

@@ -18,6 +18,7 @@ struct fluid {
     struct bench bench;
     struct surface surface;
     struct added_mass_contact contacts[POINTS];
+    struct anchor anchors[POINTS];
     double tensor; /* kg per point */
 };
 
@@ -61,12 +62,13 @@ static void fluid_init(struct fluid *fluid, double tensor)
     for (int p = 1; p < POINTS; p++)
         surface->mesh_node[p] = (int32_t)fluid->bench.mesh.mesh.n_nodes - p;
     surface->added_mass = fluid->contacts;
+    surface->anchors = fluid->anchors;
     surface->n_added_mass = POINTS - 1;
     fluid->tensor = tensor;
     for (int p = 1; p < POINTS; p++) {
         struct added_mass_contact *contact = &fluid->contacts[p - 1];
-        *contact = (struct added_mass_contact){
-            .rows = {p, -1, -1, -1}, .columns = {p, -1, -1, -1}, .row_weights = {1}, .column_weights = {1}};
+        fluid->anchors[p] = (struct anchor){1.0, p};
+        *contact = (struct added_mass_contact){(size_t)p, (size_t)p, 1, 1, {{0}}, 0.0};
         contact->tensor[1][1] = tensor;
         contact->tensor[0][1] = 0.1 * tensor; /* not symmetric */
     }

@@ -403,7 +403,7 @@ static void test_added_mass(void **state)
                 direction[i][k] = scene_noise(&seed);
         scene_forces(s, total);
         assert_int_equal(s->boundary->type->added_mass(s->boundary, &s->view), 0);
-        surface_added_mass_apply(s->surface, (const double(*)[3])direction, product);
+        surface_added_mass_apply(s->surface, (const double(*)[3])direction, 0.0, product);
         memcpy(load, s->surface->load, n * sizeof *load);
         for (size_t i = 0; i < n; ++i)
             for (int k = 0; k < s->model.dim; ++k)

@@ -422,7 +422,7 @@ static void test_added_mass(void **state)
             direction[i][k] = scene_noise(&seed);
     scene_forces(&scene, total);
     assert_int_equal(scene.boundary->type->added_mass(scene.boundary, &scene.view), 0);
-    surface_added_mass_apply(scene.surface, (const double(*)[3])direction, product);
+    surface_added_mass_apply(scene.surface, (const double(*)[3])direction, 0.0, product);
     memcpy(load, scene.surface->load, n * sizeof *load);
     memcpy(scene.surface->level[1].a, direction, n * sizeof *direction);
     memcpy(scene.surface->level[0].a, direction, n * sizeof *direction);
