@@ -32,6 +32,7 @@ static void view_fill(struct fluid *fluid)
         .viscosity = fluid->material->density * fluid->material->kinematic_viscosity,
         .particles = fluid->block,
         .grid = &fluid->grid,
+        .isa = fluid->isa,
     };
     fluid->skin = fluid->view.skin;
 }

@@ -7,6 +7,7 @@
 #include "model/particles.h"
 #include "model/surface.h"
 #include "sph/cell_grid.h"
+#include "sph/isa.h"
 #include "sph/kernel.h"
 
 /** The seam between fluid and walls: wall/ implements it, fluid/ calls it. Everything here is double
@@ -25,6 +26,7 @@ struct fluid_view {
     double body_force[3];                   /**< at t */
     const struct particles *particles; /**< x at t, u = half-step velocity, rho and p of the newest pass */
     const struct cell_grid *grid;      /**< of the moving block */
+    enum isa isa;                      /**< instruction set of sums */
 };
 
 /** Wall neighbours of one fluid particle in the packed form that every formulation understands. */

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "wall/facet_shares_sweeps.h"
 
 enum { PROFILE_STEPS = 1024, LAYER_STEPS = 512, TABLE_STEPS = 96, GAUSS_HALF = 6, GRADED_PANELS = 16 };
 
@@ -20,6 +21,18 @@ static const double gauss_x[GAUSS_HALF] = {0.12523340851146891, 0.36783149899818
                                            0.76990267419430469, 0.90411725637047491, 0.98156063424671924};
 static const double gauss_w[GAUSS_HALF] = {0.24914704581340277, 0.23349253653835481, 0.20316742672306592,
                                            0.16007832854334622, 0.10693932599531843, 0.047175336386511828};
+
+#define EDGES_DECLARE(isa) facet_shares_edges facet_shares_edges_##isa##_double;
+EDGES_DECLARE(baseline)
+EDGES_DECLARE(v3)
+EDGES_DECLARE(v4)
+#undef EDGES_DECLARE
+
+facet_shares_edges *facet_shares_edges_of(enum isa isa)
+{
+    static facet_shares_edges *const all[ISAS] = ISA_TABLE(facet_shares_edges, double);
+    return all[isa];
+}
 
 static double block_volume(const struct facet_shares *shares)
 {
@@ -131,17 +144,11 @@ static void profile_at(const struct facet_shares *shares, double d, double f[SHA
                        x * (x - 2.0 * y) * r[2 * k + 1];
 }
 
-/** A distance a with the values there, and the coefficients of the closed part. */
-struct plane {
-    double a, f[SHARES], alpha[SHARES], beta[SHARES];
-    bool exact; /**< sum blocks instead of using the table */
-};
-
-static void plane_at(const struct facet_shares *shares, double a, bool exact, struct plane *plane)
+/** @p exact: sum the block instead of using the table. */
+static void plane_at(const struct facet_shares *shares, double a, bool exact, struct share_plane *plane)
 {
     double slope[SHARES];
     plane->a = a;
-    plane->exact = exact;
     profile_at(shares, a, plane->f, slope);
     if (exact)
         facet_shares_block(shares, a, plane->f);
@@ -153,8 +160,8 @@ static void plane_at(const struct facet_shares *shares, double a, bool exact, st
 }
 
 /** Add the Gauss sum of |h| (f - alpha a/R - beta) / (h^2 + s^2) over s0 .. s1. */
-static void add_panel(const struct facet_shares *shares, const struct plane *plane, double h, double s0,
-                      double s1, double integral[SHARES])
+static void add_panel(const struct facet_shares *shares, const struct share_plane *plane, bool exact,
+                      double h, double s0, double s1, double integral[SHARES])
 {
     const double centre = 0.5 * (s0 + s1), half = 0.5 * (s1 - s0), a = plane->a;
     double sum[SHARES] = {0.0, 0.0, 0.0}, f[SHARES];
@@ -163,7 +170,7 @@ static void add_panel(const struct facet_shares *shares, const struct plane *pla
         double s = centre + half * x, t = h * h + s * s, R = sqrt(a * a + t);
         if (t == 0.0)
             continue;
-        if (plane->exact)
+        if (exact)
             facet_shares_block(shares, R, f);
         else
             profile_at(shares, R, f, NULL);
@@ -180,53 +187,53 @@ static void add_panel(const struct facet_shares *shares, const struct plane *pla
         integral[k] += h * half * sum[k];
 }
 
-/** Integral of f over the angle along one edge at distance @p h >= 0, from @p s0 to @p s1 (from the foot
- * point of the edge).
- * @p graded: many panels that shrink towards the foot point, instead of one. */
-static void edge_integral(const struct facet_shares *shares, const struct plane *plane, double h, double s0,
-                          double s1, bool graded, double integral[SHARES])
+/** Cut an edge to the range; false if nothing is left. */
+static bool edge_cut(const struct facet_shares *shares, double a, double h, double *s0, double *s1)
 {
-    const double a = plane->a, left = shares->range * shares->range - a * a - h * h;
+    const double left = shares->range * shares->range - a * a - h * h;
+    if (left <= 0.0)
+        return false;
+    *s0 = fmax(*s0, -sqrt(left));
+    *s1 = fmin(*s1, sqrt(left));
+    return *s1 > *s0;
+}
+
+/** Integral of f over the angle along one edge at distance @p h >= 0, from @p s0 to @p s1 (from the foot
+ * point of the edge), by many panels that shrink towards the foot point. */
+static void edge_integral(const struct facet_shares *shares, const struct share_plane *plane, bool exact,
+                          double h, double s0, double s1, double integral[SHARES])
+{
+    const double a = plane->a;
+    double low[SHARES] = {0.0, 0.0, 0.0};
     for (int k = 0; k < SHARES; ++k)
         integral[k] = 0.0;
-    if (left <= 0.0)
+    if (!edge_cut(shares, a, h, &s0, &s1))
         return;
-    const double end = sqrt(left);
-    s0 = fmax(s0, -end);
-    s1 = fmin(s1, end);
-    if (s1 <= s0)
-        return;
+    for (int p = 0; p < GRADED_PANELS; ++p) {
+        double inner = p + 1 < GRADED_PANELS ? ldexp(1.0, -p - 1) : 0.0, outer = ldexp(1.0, -p);
+        add_panel(shares, plane, exact, h, inner * s1, outer * s1, integral);
+        add_panel(shares, plane, exact, h, inner * s0, outer * s0, low);
+    }
     const double w1 = atan2(a * s1, h * sqrt(a * a + h * h + s1 * s1)),
                  w0 = atan2(a * s0, h * sqrt(a * a + h * h + s0 * s0)),
                  angle = atan2(h * (s1 - s0), h * h + s0 * s1);
-    if (!graded) {
-        add_panel(shares, plane, h, s0, s1, integral);
-    } else {
-        double low[SHARES] = {0.0, 0.0, 0.0};
-        for (int p = 0; p < GRADED_PANELS; ++p) {
-            double inner = p + 1 < GRADED_PANELS ? ldexp(1.0, -p - 1) : 0.0, outer = ldexp(1.0, -p);
-            add_panel(shares, plane, h, inner * s1, outer * s1, integral);
-            add_panel(shares, plane, h, inner * s0, outer * s0, low);
-        }
-        for (int k = 0; k < SHARES; ++k)
-            integral[k] -= low[k];
-    }
     for (int k = 0; k < SHARES; ++k)
-        integral[k] += plane->alpha[k] * (w1 - w0) + plane->beta[k] * angle;
+        integral[k] += plane->alpha[k] * (w1 - w0) + plane->beta[k] * angle - low[k];
 }
 
 /** C(a, s) for s > 0: odd in s, 1 beyond the range. */
-static void cut(const struct facet_shares *shares, const struct plane *plane, double s, double c[SHARES])
+static void cut(const struct facet_shares *shares, const struct share_plane *plane, bool exact, double s,
+                double c[SHARES])
 {
     double integral[SHARES];
-    edge_integral(shares, plane, s, 0.0, shares->range, true, integral);
+    edge_integral(shares, plane, exact, s, 0.0, shares->range, integral);
     for (int k = 0; k < SHARES; ++k)
         c[k] = 1.0 - 2.0 / PI * integral[k];
 }
 
 /** Coefficient of the part atan(s/a) that the table leaves out; bounded up to the range, where alpha is not.
  */
-static double singular_part(const struct facet_shares *shares, const struct plane *plane, int k)
+static double singular_part(const struct facet_shares *shares, const struct share_plane *plane, int k)
 {
     double x = plane->a / shares->range;
     return (1.0 - x * x) * (1.0 - x * x) * plane->alpha[k];
@@ -237,13 +244,13 @@ static void fill_table(struct facet_shares *shares)
 {
     for (int i = 0; i <= TABLE_STEPS; ++i) {
         double x = (double)i / TABLE_STEPS;
-        struct plane plane;
+        struct share_plane plane;
         plane_at(shares, fmax(x * x * shares->last, LEAST_DISTANCE * shares->dx), false, &plane);
         double width = sqrt(shares->range * shares->range - plane.a * plane.a);
         for (int j = 0; j <= TABLE_STEPS; ++j) {
             double y = (double)j / TABLE_STEPS, s = y * y * width, c[SHARES] = {0.0, 0.0, 0.0};
             if (j > 0)
-                cut(shares, &plane, s, c);
+                cut(shares, &plane, false, s, c);
             for (int k = 0; k < SHARES; ++k)
                 shares->table[i * (TABLE_STEPS + 1) + j][k] =
                     c[k] - singular_part(shares, &plane, k) * 2.0 / PI * atan2(s, plane.a);
@@ -251,9 +258,9 @@ static void fill_table(struct facet_shares *shares)
     }
 }
 
-int facet_shares_create(struct facet_shares *shares, struct kernel kernel, double dx)
+int facet_shares_create(struct facet_shares *shares, struct kernel kernel, double dx, enum isa isa)
 {
-    *shares = (struct facet_shares){.kernel = kernel, .dx = dx};
+    *shares = (struct facet_shares){.kernel = kernel, .dx = dx, .profile_steps = PROFILE_STEPS, .isa = isa};
     shares->layers = (int)ceil(kernel.support / dx - 1e-6);
     shares->range = kernel.support - 0.5 * dx;
     shares->last = LAST_PART * shares->range;
@@ -322,7 +329,7 @@ void facet_shares_segment(const struct facet_shares *shares, double d, double s0
     if (a >= shares->last)
         return;
     const double width = sqrt(shares->range * shares->range - a * a), half = d < 0.0 ? -0.5 : 0.5;
-    struct plane plane;
+    struct share_plane plane;
     double wa[4], ws[4];
     plane_at(shares, a, false, &plane);
     int ia = cubic_weights(sqrt(a / shares->last) * TABLE_STEPS, wa);
@@ -352,14 +359,56 @@ void facet_shares_segment_exact(const struct facet_shares *shares, double d, dou
     const double a = fmax(fabs(d), LEAST_DISTANCE * shares->dx);
     const double sign0 = s0 < 0.0 ? -0.5 : 0.5, sign1 = s1 < 0.0 ? -0.5 : 0.5, sign = d < 0.0 ? -1.0 : 1.0;
     double c0[SHARES] = {0.0, 0.0, 0.0}, c1[SHARES] = {0.0, 0.0, 0.0};
-    struct plane plane;
+    struct share_plane plane;
     plane_at(shares, a, true, &plane);
     if (s0 != 0.0)
-        cut(shares, &plane, fabs(s0), c0);
+        cut(shares, &plane, true, fabs(s0), c0);
     if (s1 != 0.0)
-        cut(shares, &plane, fabs(s1), c1);
+        cut(shares, &plane, true, fabs(s1), c1);
     for (int k = 0; k < SHARES; ++k)
         share[k] = a < shares->last ? sign * (sign1 * c1[k] - sign0 * c0[k]) : 0.0;
+}
+
+/** Edges of a polygon that lie off the foot point, cut to the range; returns the angle that the others leave:
+ * 2 pi if the foot point is inside, and on an edge line the sum of the angles under the uncut edges, in which
+ * that under its own cancels. */
+static double polygon_edges(const struct facet_shares *shares, double a, int n, const double (*corners)[2],
+                            struct share_edges *edges)
+{
+    double under[4][3];
+    bool inside = true, on_line = false;
+    int n_under = 0;
+    edges->n = 0;
+    for (int e = 0; e < n; ++e) {
+        const double *A = corners[e], *B = corners[e + 1 < n ? e + 1 : 0];
+        double t[2] = {B[0] - A[0], B[1] - A[1]}, length = sqrt(t[0] * t[0] + t[1] * t[1]);
+        if (length <= 0.0)
+            continue;
+        t[0] /= length;
+        t[1] /= length;
+        double s0 = A[0] * t[0] + A[1] * t[1], s1 = B[0] * t[0] + B[1] * t[1];
+        const double *near = fabs(s0) < fabs(s1) ? A : B; // the nearer end has the smaller rounding error
+        double h = near[0] * t[1] - near[1] * t[0], side = h < 0.0 ? -1.0 : 1.0;
+        inside = inside && h > 0.0;
+        if (fabs(h) < LEAST_DISTANCE * shares->dx) {
+            on_line = true;
+            continue;
+        }
+        h = fabs(h);
+        under[n_under][0] = side;
+        under[n_under][1] = h * (s1 - s0);
+        under[n_under++][2] = h * h + s0 * s1;
+        if (edge_cut(shares, a, h, &s0, &s1)) {
+            edges->h[edges->n] = h;
+            edges->s0[edges->n] = s0;
+            edges->s1[edges->n] = s1;
+            edges->side[edges->n++] = side;
+        }
+    }
+    double angle = inside && !on_line ? 2.0 * PI : 0.0;
+    for (int e = 0; e < n_under && on_line; ++e)
+        angle += under[e][0] * atan2(under[e][1], under[e][2]);
+    return angle;
 }
 
 static void polygon(const struct facet_shares *shares, double d, int n, const double (*corners)[2],
@@ -370,32 +419,21 @@ static void polygon(const struct facet_shares *shares, double d, int n, const do
         share[k] = 0.0;
     if (a >= shares->last)
         return;
-    struct plane plane;
-    double sum[SHARES] = {0.0, 0.0, 0.0}, turn = 0.0;
-    bool inside = true, on_line = false;
-    plane_at(shares, a, exact, &plane);
-    for (int e = 0; e < n; ++e) {
-        const double *A = corners[e], *B = corners[e + 1 < n ? e + 1 : 0];
-        double t[2] = {B[0] - A[0], B[1] - A[1]}, length = sqrt(t[0] * t[0] + t[1] * t[1]);
-        if (length <= 0.0)
-            continue;
-        t[0] /= length;
-        t[1] /= length;
-        double s0 = A[0] * t[0] + A[1] * t[1], s1 = B[0] * t[0] + B[1] * t[1];
-        const double *near = fabs(s0) < fabs(s1) ? A : B; // the nearer end has the smaller rounding error
-        double h = near[0] * t[1] - near[1] * t[0], side = h < 0.0 ? -1.0 : 1.0, integral[SHARES];
-        inside = inside && h > 0.0;
-        if (fabs(h) < LEAST_DISTANCE * shares->dx) { // the angle under such an edge cancels in the difference
-            on_line = true;
-            continue;
+    struct share_edges edges;
+    struct share_plane plane;
+    double sum[SHARES] = {0.0, 0.0, 0.0};
+    const double whole = polygon_edges(shares, a, n, corners, &edges);
+    if (edges.n > 0) {
+        plane_at(shares, a, exact, &plane);
+        if (!exact)
+            facet_shares_edges_of(shares->isa)(shares, &plane, &edges, sum);
+        for (int e = 0; e < edges.n && exact; ++e) {
+            double integral[SHARES];
+            edge_integral(shares, &plane, true, edges.h[e], edges.s0[e], edges.s1[e], integral);
+            for (int k = 0; k < SHARES; ++k)
+                sum[k] += edges.side[e] * integral[k];
         }
-        h = fabs(h);
-        turn += side * atan2(h * (s1 - s0), h * h + s0 * s1);
-        edge_integral(shares, &plane, h, s0, s1, exact, integral);
-        for (int k = 0; k < SHARES; ++k)
-            sum[k] += side * integral[k];
     }
-    double whole = on_line ? turn : inside ? 2.0 * PI : 0.0;
     for (int k = 0; k < SHARES; ++k)
         share[k] = sign * (whole - sum[k]) / (2.0 * PI);
 }

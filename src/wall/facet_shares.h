@@ -2,6 +2,7 @@
 #ifndef WALL_FACET_SHARES_H
 #define WALL_FACET_SHARES_H
 
+#include "sph/isa.h"
 #include "sph/kernel.h"
 
 /** Shares of plane facets in the full block of virtual boundary particles behind their plane, measured with
@@ -23,14 +24,17 @@ struct facet_shares {
     int layers;                         /**< q = ceil(r_c / dx): layers of a block; it is 2 q - 1 wide */
     double range;                       /**< r_c - dx/2: where S, G and V vanish */
     double last;                        /**< largest distance at which shares are evaluated (beyond: 0/0) */
+    int profile_steps;                  /**< over the range */
     double (*profile)[6];               /**< value and slope of S, G, V at equal steps of d */
     double (*table)[3];                 /**< 2-D: C(a, s) without its singular part */
     double (*layer)[2 * LAYER_MOMENTS]; /**< 3-D: value and slope of the moments at equal steps of y */
+    enum isa isa;                       /**< instruction set of polygons' integrals */
 };
 
-/** Make the tables for lattice spacing @p dx (1-D needs none but has S, G, V). Free with facet_shares_reset.
- */
-int facet_shares_create(struct facet_shares *shares, struct kernel kernel, double dx);
+/** Make the tables for lattice spacing @p dx (1-D needs none but has S, G, V), for sums in the instruction
+ * set
+ * @p isa. Free with facet_shares_reset. */
+int facet_shares_create(struct facet_shares *shares, struct kernel kernel, double dx, enum isa isa);
 void facet_shares_reset(struct facet_shares *shares);
 
 /** S, G, V at distance @p d >= 0 by summing the block. */
@@ -51,8 +55,8 @@ void facet_shares_segment(const struct facet_shares *shares, double d, double s0
                           double share[SHARES]);
 
 /** 3-D: shares of the plane polygon with @p n corners (counter-clockwise seen from the fluid, relative to the
- * foot point) at signed distance @p d, by a closed form and 12 Gauss points an edge; share times S(d) good to
- * 1e-4. */
+ * foot point) at signed distance @p d, by a closed form and 8 or 16 Gauss points an edge; share times S(d)
+ * good to 1e-5. */
 void facet_shares_polygon(const struct facet_shares *shares, double d, int n, const double (*corners)[2],
                           double share[SHARES]);
 

@@ -9,3 +9,6 @@ libskerry_la_SOURCES += \
 	src/wall/sliding_particles.c src/wall/sliding_particles.h \
 	src/wall/wall_list.h \
 	src/wall/wall_places.c src/wall/wall_places.h
+
+# Compiled once per instruction set (top Makefile.am).
+wall_sweep_sources = src/wall/facet_shares_sweeps.c src/wall/facet_shares_sweeps.h src/sph/sweep_vector.h

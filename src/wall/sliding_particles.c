@@ -182,7 +182,7 @@ static int sliding_create(struct boundary *boundary, const struct model *model, 
     s->gradient = boundary->wall->pressure_gradient;
     s->snap = SNAP_PART * view->kernel.support;
     s->flat = FLAT_PART * view->spacing;
-    CALL(facet_shares_create(&s->shares, view->kernel, view->spacing));
+    CALL(facet_shares_create(&s->shares, view->kernel, view->spacing, view->isa));
     s->block = (size_t)s->shares.layers;
     for (int k = 1; k < view->dim; ++k)
         s->block *= 2 * (size_t)s->shares.layers - 1;

@@ -32,7 +32,7 @@ static void test_reference_2d(void **state)
 {
     (void)state;
     struct facet_shares shares;
-    assert_int_equal(facet_shares_create(&shares, kernel_quintic(2, 1.0, false), 1.0), 0);
+    assert_int_equal(facet_shares_create(&shares, kernel_quintic(2, 1.0, false), 1.0, isa_best()), 0);
     FILE *file = open_data("facet_shares_2d.csv");
     char line[1024];
     int rows = 0;
@@ -65,7 +65,8 @@ static void test_table_2d(void **state)
     for (size_t t = 0; t < 2; ++t) {
         struct facet_shares shares;
         const double dx = 0.0173;
-        assert_int_equal(facet_shares_create(&shares, kernel_quintic(2, ratio[t] * dx, false), dx), 0);
+        assert_int_equal(
+            facet_shares_create(&shares, kernel_quintic(2, ratio[t] * dx, false), dx, isa_best()), 0);
         assert_int_equal(shares.layers, t ? 4 : 3);
         for (double a = 0.013; a < 0.98; a *= 1.19)
             for (double s = 0.0071; s < 1.1; s *= 1.31) {
@@ -87,7 +88,7 @@ static void test_reference_3d(void **state)
 {
     (void)state;
     struct facet_shares shares;
-    assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0), 0);
+    assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0, isa_best()), 0);
     FILE *file = open_data("facet_shares_3d.csv");
     char line[1024];
     int rows = 0;
@@ -116,12 +117,38 @@ static void test_reference_3d(void **state)
     facet_shares_reset(&shares);
 }
 
+/** Instruction sets differ by rounding: quads all around the foot point, small and large. */
+static void test_instruction_sets(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"baseline", "v3", "v4"};
+    struct facet_shares shares;
+    double largest = 0.0;
+    assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0, ISA_BASELINE), 0);
+    for (int k = 0; k < 400; ++k) {
+        const double x = fmod(0.37 * k, 5.0) - 2.5, y = fmod(0.61 * k, 5.0) - 2.5, size = 0.3 + 0.01 * k;
+        const double quad[4][2] = {
+            {x, y}, {x + size, y - 0.1}, {x + 1.1 * size, y + size}, {x, y + 0.8 * size}};
+        double value[ISAS][SHARES];
+        for (int isa = 0; isa < ISAS; ++isa) {
+            shares.isa = isa_available(names[isa]) ? isa : ISA_BASELINE;
+            facet_shares_polygon(&shares, 0.07 + 0.005 * k, 4, quad, value[isa]);
+            for (int f = 0; f < SHARES; ++f) {
+                assert_close(value[isa][f], value[0][f], 1e-13);
+                largest = fmax(largest, value[isa][f]);
+            }
+        }
+    }
+    assert_true(largest > 0.5);
+    facet_shares_reset(&shares);
+}
+
 /** Shares of the parts of a polygon add up, also with the foot point on an edge, on a corner and outside. */
 static void test_additive_3d(void **state)
 {
     (void)state;
     struct facet_shares shares;
-    assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0), 0);
+    assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0, isa_best()), 0);
     static const double foot[][2] = {{0.31, 0.17}, {0.0, 0.0}, {0.5, 0.0},
                                      {-0.4, 0.7},  {0.4, 0.4}, {2.0, 1.7}};
     for (size_t i = 0; i < sizeof foot / sizeof *foot; ++i)
@@ -151,7 +178,7 @@ static void test_gradient_2d(void **state)
 {
     (void)state;
     struct facet_shares shares;
-    assert_int_equal(facet_shares_create(&shares, kernel_quintic(2, 1.0, false), 1.0), 0);
+    assert_int_equal(facet_shares_create(&shares, kernel_quintic(2, 1.0, false), 1.0, isa_best()), 0);
     const double h = 1e-3, s0 = -0.4, s1 = 1.3;
     double difference = 0.0;
     for (double d = 0.2; d < 2.0; d += 0.31) {
@@ -184,7 +211,8 @@ static void test_layers_3d(void **state)
     for (size_t t = 0; t < 2; ++t) {
         struct facet_shares shares;
         const double dx = 0.0173, volume = dx * dx * dx;
-        assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, ratio[t] * dx, false), dx), 0);
+        assert_int_equal(
+            facet_shares_create(&shares, kernel_quintic(3, ratio[t] * dx, false), dx, isa_best()), 0);
         double scale[LAYER_MOMENTS], value[LAYER_MOMENTS], exact[LAYER_MOMENTS];
         facet_shares_layer_exact(&shares, 0.5 * dx, scale);
         for (double y = 0.5 * dx; y < shares.kernel.support; y += 0.0137 * dx) {
@@ -214,8 +242,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reference_2d), cmocka_unit_test(test_table_2d),
-        cmocka_unit_test(test_reference_3d), cmocka_unit_test(test_additive_3d),
-        cmocka_unit_test(test_gradient_2d),  cmocka_unit_test(test_layers_3d),
+        cmocka_unit_test(test_reference_3d), cmocka_unit_test(test_instruction_sets),
+        cmocka_unit_test(test_additive_3d),  cmocka_unit_test(test_gradient_2d),
+        cmocka_unit_test(test_layers_3d),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

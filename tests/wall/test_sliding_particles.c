@@ -365,7 +365,7 @@ static void test_periodic_plate(void **state)
         {-5.0, -5.0, -3.0}, {5.0, -5.0, -3.0}, {5.0, 5.0, -3.0}, {-5.0, 5.0, -3.0}};
     static const int32_t nodes[1][4] = {{0, 1, 2, 3}};
     struct facet_shares shares;
-    assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0), 0);
+    assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0, isa_best()), 0);
     for (int rule = 0; rule < 2; ++rule) {
         struct scene scene;
         scene_start(&scene, 3, -5.0, 5.0, true);

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/* Integrals along the edges of a facet (facet_shares.c), compiled once per instruction set: all Gauss points
+ * of an edge, and all angles of a polygon, are lanes of loops without branches. */
+#include "wall/facet_shares_sweeps.h"
+
+#include "sph/sweep_vector.h"
+
+enum { SHORT_POINTS = 8, LONG_POINTS = 16, ANGLES = 16, MOST_EDGES = 4 };
+
+#define PI 3.14159265358979323846
+
+static const double short_x[SHORT_POINTS] = {-0.96028985649753629, -0.79666647741362684, -0.52553240991632899,
+                                             -0.18343464249564981, 0.18343464249564981,  0.52553240991632899,
+                                             0.79666647741362684,  0.96028985649753629};
+static const double short_w[SHORT_POINTS] = {0.10122853629037618, 0.22238103445337445, 0.31370664587788738,
+                                             0.36268378337836199, 0.36268378337836199, 0.31370664587788738,
+                                             0.22238103445337445, 0.10122853629037618};
+static const double long_x[LONG_POINTS] = {
+    -0.98940093499164994, -0.9445750230732326,  -0.86563120238783176, -0.755404408355003,
+    -0.61787624440264377, -0.45801677765722737, -0.28160355077925892, -0.095012509837637441,
+    0.095012509837637441, 0.28160355077925892,  0.45801677765722737,  0.61787624440264377,
+    0.755404408355003,    0.86563120238783176,  0.9445750230732326,   0.98940093499164994};
+static const double long_w[LONG_POINTS] = {
+    0.027152459411754058, 0.062253523938647776, 0.095158511682492897, 0.12462897125553395,
+    0.14959598881657682,  0.16915651939500256,  0.18260341504492361,  0.18945061045506847,
+    0.18945061045506847,  0.18260341504492361,  0.16915651939500256,  0.14959598881657682,
+    0.12462897125553395,  0.095158511682492897, 0.062253523938647776, 0.027152459411754058};
+
+/** Angles of the directions (x, y), as atan2 to rounding: the quotient is brought below tan(pi/8), where a
+ * rational approximation (coefficients of Cephes, S. Moshier) holds. */
+SWEEP_INLINE void angles(const double *y, const double *x, double *angle)
+{
+#pragma omp simd
+    for (int k = 0; k < ANGLES; ++k) {
+        const double ax = fabs(x[k]), ay = fabs(y[k]), high = ax > ay ? ax : ay, low = ax > ay ? ay : ax;
+        const double q = low / (high > 0.0 ? high : 1.0);
+        const double r = q > 0.41421356237309503 ? (q - 1.0) / (q + 1.0) : q, z = r * r;
+        const double p = ((((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z -
+                            7.500855792314704667340e1) *
+                               z -
+                           1.228866684490136173410e2) *
+                              z -
+                          6.485021904942025371773e1) *
+                         z;
+        const double d = ((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z +
+                           4.328810604912902668951e2) *
+                              z +
+                          4.853903996359136964868e2) *
+                             z +
+                         1.945506571482613964425e2;
+        const double within = r + r * p / d + (q > 0.41421356237309503 ? 0.25 * PI : 0.0);
+        const double steep = ay > ax ? 0.5 * PI - within : within, wide = x[k] < 0.0 ? PI - steep : steep;
+        angle[k] = y[k] < 0.0 ? -wide : wide;
+    }
+}
+
+/** Gauss sum of h (f - alpha a/R - beta) / (h^2 + s^2) over an edge, added to @p sum. */
+SWEEP_INLINE void panel(const struct facet_shares *shares, const struct share_plane *plane, double h,
+                        double s0, double s1, const double *xi, const double *weights, int points,
+                        double factor[SHARES], double sum[SHARES])
+{
+    const double centre = 0.5 * (s0 + s1), half = 0.5 * (s1 - s0), a = plane->a;
+    const double per_step = shares->profile_steps / shares->range, step = 1.0 / per_step;
+    const int last = shares->profile_steps - 1;
+    double density = 0.0, pressure = 0.0, viscous = 0.0;
+    const double *table = shares->profile[0];
+#pragma omp simd reduction(+ : density, pressure, viscous)
+    for (int g = 0; g < points; ++g) {
+        const double s = centre + half * xi[g], t = h * h + s * s, R = sqrt(a * a + t), u = R * per_step;
+        const int whole = (int)u, i = whole < last ? whole : last;
+        /* at the end of the range all are 0 */
+        const double x = u - i < 1.0 ? u - i : 1.0, y = 1.0 - x, b0 = y * y * (1.0 + 2.0 * x),
+                     b1 = x * x * (1.0 + 2.0 * y), b2 = x * y * y * step, b3 = -x * x * y * step;
+        const double *l = table + 6 * i;
+        const double f0 = b0 * l[0] + b1 * l[6] + b2 * l[1] + b3 * l[7],
+                     f1 = b0 * l[2] + b1 * l[8] + b2 * l[3] + b3 * l[9],
+                     f2 = b0 * l[4] + b1 * l[10] + b2 * l[5] + b3 * l[11];
+        const double aR = a / R, weight = weights[g] / t;
+        density += weight * (aR * (f0 * factor[SHARE_DENSITY] - plane->alpha[SHARE_DENSITY]) -
+                             plane->beta[SHARE_DENSITY]);
+        pressure += weight * (f1 * factor[SHARE_PRESSURE] - 1.0);
+        viscous += weight * (aR * (f2 * factor[SHARE_VISCOUS] - plane->alpha[SHARE_VISCOUS]) -
+                             plane->beta[SHARE_VISCOUS]);
+    }
+    sum[SHARE_DENSITY] += h * half * density;
+    sum[SHARE_PRESSURE] += h * half * pressure;
+    sum[SHARE_VISCOUS] += h * half * viscous;
+}
+
+facet_shares_edges SWEEP_NAME(facet_shares_edges);
+
+void SWEEP_NAME(facet_shares_edges)(const struct facet_shares *shares, const struct share_plane *plane,
+                                    const struct share_edges *edges, double sum[SHARES])
+{
+    const double a = plane->a;
+    double x[ANGLES] = {0.0}, y[ANGLES] = {0.0}, angle[ANGLES], factor[SHARES];
+    for (int k = 0; k < SHARES; ++k) {
+        sum[k] = 0.0;
+        factor[k] = 1.0 / plane->f[k];
+    }
+    for (int e = 0; e < edges->n; ++e) {
+        const double h = edges->h[e], s0 = edges->s0[e], s1 = edges->s1[e];
+        y[e] = a * s1;
+        x[e] = h * sqrt(a * a + h * h + s1 * s1);
+        y[MOST_EDGES + e] = a * s0;
+        x[MOST_EDGES + e] = h * sqrt(a * a + h * h + s0 * s0);
+        y[2 * MOST_EDGES + e] = h * (s1 - s0);
+        x[2 * MOST_EDGES + e] = h * h + s0 * s1;
+    }
+    angles(y, x, angle);
+    for (int e = 0; e < edges->n; ++e) {
+        const double h = edges->h[e], s0 = edges->s0[e], s1 = edges->s1[e], half = 0.5 * (s1 - s0);
+        /* the integrand is smooth up to R = 0, which lies this far from the edge: 8 points will do if that is
+         * further than the edge is half long */
+        const double beside = fmax(0.0, fabs(0.5 * (s0 + s1)) - half),
+                     apart2 = a * a + h * h + beside * beside;
+        double integral[SHARES] = {0.0, 0.0, 0.0};
+        if (apart2 > half * half)
+            panel(shares, plane, h, s0, s1, short_x, short_w, SHORT_POINTS, factor, integral);
+        else
+            panel(shares, plane, h, s0, s1, long_x, long_w, LONG_POINTS, factor, integral);
+        for (int k = 0; k < SHARES; ++k)
+            sum[k] += edges->side[e] * (integral[k] + plane->alpha[k] * (angle[e] - angle[MOST_EDGES + e]) +
+                                        plane->beta[k] * angle[2 * MOST_EDGES + e]);
+    }
+}
