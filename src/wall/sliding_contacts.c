@@ -387,7 +387,7 @@ static void contact_part(const struct sliding *s, struct sliding_work *work, con
 static size_t bundle(const struct sliding *s, struct sliding_work *work, size_t n)
 {
     struct contact *contacts = work->contacts;
-    const bool together = s->shares.kernel.dim == 3 && !s->paper;
+    const bool together = s->layered;
     size_t n_contacts = 0;
     uint32_t placed = 0;
     for (size_t k = 0; k < n; ++k) {
@@ -501,40 +501,66 @@ static size_t paper_contacts(const struct boundary *boundary, size_t near, const
     return n;
 }
 
-/** Sum of the kernel over a layer of a block at distance @p y. */
-static double layer_kernel_sum(const struct sliding *s, double y)
+/** Sum of the kernel over a block at distance @p d, particle by particle. */
+static double block_kernel_sum(const struct sliding *s, double d)
 {
     const struct kernel *kernel = &s->shares.kernel;
     const int q = s->shares.layers;
     const double dx = s->shares.dx;
-    double sum = 0.0, moments[LAYER_MOMENTS];
-    if (kernel->dim == 3 && !s->paper) {
-        facet_shares_layer(&s->shares, y, moments);
-        return moments[LAYER_W];
-    }
-    for (int a = 0; a < (kernel->dim > 1 ? q : 1); ++a)
-        for (int b = 0; b < (kernel->dim > 2 ? q : 1); ++b) {
-            double r2 = y * y + (double)(a * a + b * b) * dx * dx;
-            if (r2 < kernel->support * kernel->support)
-                sum += (a ? 2.0 : 1.0) * (b ? 2.0 : 1.0) * kernel_w(kernel, sqrt(r2));
-        }
+    double sum = 0.0;
+    for (int m = 0; m < q; ++m)
+        for (int a = 0; a < (kernel->dim > 1 ? q : 1); ++a)
+            for (int b = 0; b < (kernel->dim > 2 ? q : 1); ++b) {
+                double y = d + (m + 0.5) * dx, r2 = y * y + (double)(a * a + b * b) * dx * dx;
+                if (r2 < kernel->support * kernel->support)
+                    sum += (a ? 2.0 : 1.0) * (b ? 2.0 : 1.0) * kernel_w(kernel, sqrt(r2));
+            }
     return sum;
 }
 
-/** Sum of the kernel over a block at distance @p d. */
-static double block_kernel_sum(const struct sliding *s, double d)
+static void layer_sum(const struct sliding *s, const struct contact *contact, const struct touch *touches,
+                      double height, struct layer_sums *sums)
 {
-    double sum = 0.0;
+    *sums = (struct layer_sums){0};
+    for (uint32_t t = 0; t < contact->n_touches; ++t) {
+        const double y = touches[t].d + height, *weight = touches[t].weight;
+        double moments[LAYER_MOMENTS], e_r[3];
+        facet_shares_layer(&s->shares, y, moments);
+        sliding_touch_direction(contact, touches, t, e_r);
+        const double strength = weight[SHARE_PRESSURE] * moments[LAYER_NORMAL];
+        for (int k = 0; k < 3; ++k) {
+            sums->normal[k] += strength * e_r[k];
+            sums->place[k] += strength * y * e_r[k];
+        }
+        sums->kernel += weight[SHARE_DENSITY] * moments[LAYER_W];
+        sums->strength += strength;
+        sums->viscous += weight[SHARE_VISCOUS] * moments[LAYER_VISCOUS];
+        sums->tangent += weight[SHARE_PRESSURE] * moments[LAYER_TANGENT];
+    }
+}
+
+/** Layers of a contact, from its touches. */
+static void contact_layers(const struct sliding *s, size_t near, const struct contact *contact)
+{
+    const struct touch *touches = &s->touches[s->touch_start[near] + contact->first];
+    struct layer_sums *layers = &s->layers[(size_t)(contact - s->contacts) * (size_t)s->shares.layers];
     for (int m = 0; m < s->shares.layers; ++m)
-        sum += layer_kernel_sum(s, d + (m + 0.5) * s->shares.dx);
-    return sum;
+        layer_sum(s, contact, touches, (m + 0.5) * s->shares.dx, &layers[m]);
 }
 
 /** Sum over the wall of share and kernel, of one near particle. */
-static double touches_kernel_sum(const struct sliding *s, const struct touch *touches, size_t n)
+static double near_kernel_sum(const struct sliding *s, size_t near)
 {
+    const size_t q = (size_t)s->shares.layers;
     double sum = 0.0;
-    for (size_t t = 0; t < n; ++t)
+    if (s->layered) {
+        for (size_t l = s->contact_start[near] * q; l < (s->contact_start[near] + s->contact_count[near]) * q;
+             ++l)
+            sum += s->layers[l].kernel;
+        return sum;
+    }
+    const struct touch *touches = &s->touches[s->touch_start[near]];
+    for (size_t t = 0; t < s->touch_count[near]; ++t)
         sum += touches[t].weight[SHARE_DENSITY] * block_kernel_sum(s, touches[t].d);
     return sum;
 }
@@ -559,6 +585,7 @@ static void contact_follow(const struct boundary *boundary, size_t near, const d
     const bool front = contact->front;
     contact_at_plane(contact, &hit, x);
     contact->front = front;
+    contact_layers(s, near, contact);
     contact_motion(boundary, near, contact);
 }
 
@@ -578,8 +605,7 @@ static bool contacts_follow(struct boundary *boundary, const struct fluid_view *
         if (boundary->surfaces[contacts[k].surface]->coupled &&
             s->touches[s->touch_start[near] + contacts[k].first].piece)
             contact_follow(boundary, near, x, &contacts[k]);
-    boundary->kernel_sum[near] =
-        touches_kernel_sum(s, &s->touches[s->touch_start[near]], s->touch_count[near]);
+    boundary->kernel_sum[near] = near_kernel_sum(s, near);
     return true;
 }
 
@@ -610,9 +636,13 @@ static void particle_contacts(struct boundary *boundary, const struct fluid_view
         memcpy(&s->anchor[(first + t) * s->anchors], points, s->anchors * sizeof *points);
         memcpy(&s->anchor_weight[(first + t) * s->anchors], weights, s->anchors * sizeof *weights);
     }
-    for (size_t k = 0; k < n_contacts; ++k)
+    for (size_t k = 0; k < n_contacts; ++k) {
+        contacts[k].n_listed = 0;
         contact_motion(boundary, near, &contacts[k]);
-    boundary->kernel_sum[near] = touches_kernel_sum(s, &s->touches[first], n);
+        if (s->layered)
+            contact_layers(s, near, &contacts[k]);
+    }
+    boundary->kernel_sum[near] = near_kernel_sum(s, near);
     s->clear[near] = clear;
     memcpy(s->clear_x[near], x, sizeof x);
 }
@@ -633,6 +663,9 @@ int sliding_reserve_contacts(struct sliding *s, size_t n)
 {
     const size_t touches = s->touch_start[n];
     CALL(memory_grow((void **)&s->contacts, &s->contacts_capacity, s->contact_start[n], sizeof *s->contacts));
+    if (s->layered)
+        CALL(memory_grow((void **)&s->layers, &s->layers_capacity,
+                         s->contact_start[n] * (size_t)s->shares.layers, sizeof *s->layers));
     CALL(memory_grow((void **)&s->touches, &s->touches_capacity, touches, sizeof *s->touches));
     CALL(memory_grow((void **)&s->anchor, &s->anchor_capacity, touches * s->anchors, sizeof *s->anchor));
     return memory_grow((void **)&s->anchor_weight, &s->anchor_weight_capacity, touches * s->anchors,
@@ -644,7 +677,9 @@ int sliding_prepare(struct boundary *boundary, const struct fluid_view *view, bo
     struct sliding *s = boundary->data;
     const size_t n = boundary->n_near;
     // in 2-D contacts are cheap enough to find them anew
-    again = again && s->shares.kernel.dim == 3 && !s->paper;
+    again = again && s->layered;
+    for (size_t t = 0; t < s->n_work && !again; ++t)
+        s->work[t].n_list = 0;
     sliding_place(boundary, again);
     bool follow = again;
     int full;

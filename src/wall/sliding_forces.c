@@ -12,6 +12,8 @@
 /** Fluid counts in the sums at a contact by its distance in front of the plane: from 0 at the plane to 1 at
  * this (of dx). */
 #define FRONT_RAMP 0.1
+/** A contact's closest point may move so far before the particles around it are listed again (of dx). */
+#define LIST_MARGIN 0.02
 /** Least distance of the centroid from the wall (of dx). */
 #define LEAST_LAYER 0.5
 
@@ -20,42 +22,75 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/** Vector from @p c to particle @p j, or to its image that is nearest. */
+static void sum_vector(const struct sliding *s, const struct particles *particles, uint32_t j,
+                       const double c[3], double r[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        r[k] = particles->x[k][j] - c[k];
+        if (s->period[k] > 0.0)
+            r[k] -= s->period[k] * round(r[k] / s->period[k]);
+    }
+}
+
+/** List the particles that can count in the sums at a contact while its closest point moves little. */
+static int contact_list(const struct sliding *s, const struct fluid_view *view, uint32_t lister,
+                        struct contact *contact)
+{
+    const double *const *x = (const double *const *)view->particles->x, *c = contact->c;
+    struct sliding_work *work = &s->work[lister];
+    const double reach = view->kernel.support + LIST_MARGIN * view->spacing;
+    struct cell_range ranges[CELL_GRID_RANGES];
+    size_t n_ranges = cell_grid_ranges(view->grid, c, reach, ranges), most = work->n_list;
+    for (size_t k = 0; k < n_ranges; ++k)
+        most += ranges[k].end - ranges[k].begin;
+    CALL(memory_grow((void **)&work->list, &work->list_capacity, most, sizeof *work->list));
+    contact->lister = lister;
+    contact->listed = work->n_list;
+    memcpy(contact->listed_c, c, sizeof contact->listed_c);
+    for (size_t k = 0; k < n_ranges; ++k) {
+        const double o[3] = {ranges[k].shift[0] - c[0], ranges[k].shift[1] - c[1], ranges[k].shift[2] - c[2]};
+        for (uint32_t j = ranges[k].begin; j < ranges[k].end; ++j) {
+            const double dx = x[0][j] + o[0], dy = x[1][j] + o[1], dz = x[2][j] + o[2];
+            work->list[work->n_list] = j;
+            work->n_list += dx * dx + dy * dy + dz * dz < reach * reach;
+        }
+    }
+    contact->n_listed = (uint32_t)(work->n_list - contact->listed);
+    return 0;
+}
+
 /** Smoothed values at the contact's closest point over all particles of the moving block, particle @p i
  * always included. */
 static void contact_sums(const struct sliding *s, const struct fluid_view *view, uint32_t i,
                          struct contact *contact)
 {
     const struct particles *particles = view->particles;
-    const double *x = particles->x[0], *y = particles->x[1], *z = particles->x[2];
     const double *c = contact->c, *normal = contact->normal;
     const double rc = view->kernel.support, per_ramp = 1.0 / (FRONT_RAMP * view->spacing);
     const bool one_sided = !s->paper && contact->front;
-    struct cell_range ranges[CELL_GRID_RANGES];
-    size_t n_ranges = cell_grid_ranges(view->grid, c, rc, ranges);
+    const uint32_t *list = s->work[contact->lister].list + contact->listed;
     double sum = 0.0, p = 0.0, rho = 0.0, u[3] = {0.0, 0.0, 0.0}, r[3] = {0.0, 0.0, 0.0};
-    for (size_t k = 0; k < n_ranges; ++k) {
-        const double o[3] = {ranges[k].shift[0] - c[0], ranges[k].shift[1] - c[1], ranges[k].shift[2] - c[2]};
-        for (uint32_t j = ranges[k].begin; j < ranges[k].end; ++j) {
-            const double dx = x[j] + o[0], dy = y[j] + o[1], dz = z[j] + o[2],
-                         r2 = dx * dx + dy * dy + dz * dz;
-            if (r2 >= rc * rc)
+    for (uint32_t k = 0; k < contact->n_listed; ++k) {
+        const uint32_t j = list[k];
+        double d[3];
+        sum_vector(s, particles, j, c, d);
+        const double r2 = dot(d, d);
+        if (r2 >= rc * rc)
+            continue;
+        double w = kernel_w(&view->kernel, sqrt(r2));
+        if (one_sided && j != i) {
+            double height = dot(d, normal) * per_ramp;
+            if (height <= 0.0)
                 continue;
-            double w = kernel_w(&view->kernel, sqrt(r2));
-            if (one_sided && j != i) {
-                double height = (dx * normal[0] + dy * normal[1] + dz * normal[2]) * per_ramp;
-                if (height <= 0.0)
-                    continue;
-                w *= fmin(1.0, height);
-            }
-            sum += w;
-            p += w * particles->p[j];
-            rho += w * particles->rho[j];
-            u[0] += w * particles->u[0][j];
-            u[1] += w * particles->u[1][j];
-            u[2] += w * particles->u[2][j];
-            r[0] += w * dx;
-            r[1] += w * dy;
-            r[2] += w * dz;
+            w *= fmin(1.0, height);
+        }
+        sum += w;
+        p += w * particles->p[j];
+        rho += w * particles->rho[j];
+        for (int l = 0; l < 3; ++l) {
+            u[l] += w * particles->u[l][j];
+            r[l] += w * d[l];
         }
     }
     contact->mean_p = p / sum;
@@ -115,16 +150,36 @@ static void contact_borrow(const struct fluid_view *view, const struct contact *
     contact->layer = fmax(dot(to, contact->e_r), LEAST_LAYER * view->spacing);
 }
 
+/** Sums of the contacts of a near particle that have their own. */
+static int near_sums(struct boundary *boundary, const struct fluid_view *view, size_t near)
+{
+    const struct sliding *s = boundary->data;
+    struct contact *contacts = &s->contacts[s->contact_start[near]];
+    const double margin = LIST_MARGIN * view->spacing;
+    for (size_t k = 0; k < s->contact_count[near]; ++k) {
+        struct contact *contact = &contacts[k];
+        if (contact->source != (int32_t)k)
+            continue;
+        double moved[3];
+        for (int d = 0; d < 3; ++d)
+            moved[d] = contact->c[d] - contact->listed_c[d];
+        if (contact->n_listed == 0 || !(dot(moved, moved) < margin * margin))
+            CALL(contact_list(s, view, (uint32_t)omp_get_thread_num(), contact));
+        contact_sums(s, view, boundary->near[near], contact);
+    }
+    return 0;
+}
+
 int sliding_close(struct boundary *boundary, const struct fluid_view *view)
 {
     const struct sliding *s = boundary->data;
-#pragma omp parallel for schedule(dynamic, 16)
+    int status = 0;
+#pragma omp parallel for schedule(dynamic, 16) reduction(| : status)
     for (size_t near = 0; near < boundary->n_near; ++near) {
         struct contact *contacts = &s->contacts[s->contact_start[near]];
         const size_t n = s->contact_count[near];
-        for (size_t k = 0; k < n; ++k)
-            if (contacts[k].source == (int32_t)k)
-                contact_sums(s, view, boundary->near[near], &contacts[k]);
+        if (!status)
+            status = near_sums(boundary, view, near);
         for (size_t k = 0; k < n; ++k) {
             const struct contact *source = &contacts[contacts[k].source];
             contact_pressure(s, view, source, &contacts[k]);
@@ -132,7 +187,7 @@ int sliding_close(struct boundary *boundary, const struct fluid_view *view)
                 contact_borrow(view, source, &contacts[k]);
         }
     }
-    return 0;
+    return status;
 }
 
 void sliding_touch_direction(const struct contact *contact, const struct touch *touches, uint32_t t,
@@ -210,37 +265,6 @@ static size_t pack_common(const struct fluid_view *view, const struct contact *c
     return n;
 }
 
-/** What the particles of one layer behind all touches of a contact add up to. */
-struct layer_sums {
-    double kernel;    /**< of share_density W */
-    double normal[3]; /**< of share_pressure W' y/r e_r */
-    double place[3];  /**< of share_pressure W' y/r times the place, from the particle */
-    double strength;  /**< of share_pressure W' y/r */
-    double viscous;   /**< of share_viscous W'/r */
-    double tangent;   /**< of share_pressure W' s^2/r */
-};
-
-static void layer_sum(const struct sliding *s, const struct contact *contact, const struct touch *touches,
-                      double height, struct layer_sums *sums)
-{
-    *sums = (struct layer_sums){0};
-    for (uint32_t t = 0; t < contact->n_touches; ++t) {
-        const double y = touches[t].d + height, *weight = touches[t].weight;
-        double moments[LAYER_MOMENTS], e_r[3];
-        facet_shares_layer(&s->shares, y, moments);
-        sliding_touch_direction(contact, touches, t, e_r);
-        const double strength = weight[SHARE_PRESSURE] * moments[LAYER_NORMAL];
-        for (int k = 0; k < 3; ++k) {
-            sums->normal[k] += strength * e_r[k];
-            sums->place[k] += strength * y * e_r[k];
-        }
-        sums->kernel += weight[SHARE_DENSITY] * moments[LAYER_W];
-        sums->strength += strength;
-        sums->viscous += weight[SHARE_VISCOUS] * moments[LAYER_VISCOUS];
-        sums->tangent += weight[SHARE_PRESSURE] * moments[LAYER_TANGENT];
-    }
-}
-
 /** What the layers' particles at both sides of their middles add up to: share_pressure W' s^2/r, and the
  * pressure in the middle. */
 struct tangent_sums {
@@ -274,56 +298,54 @@ static void pack_tangents(const struct fluid_view *view, const struct contact *c
  * right behind the wall for each layer, and (pack_tangents) two beside it where the pressure varies along the
  * wall. To first order in that variation the sums are the blocks'. */
 static void pack_layers(const struct sliding *s, const struct fluid_view *view, const struct contact *contact,
-                        const struct touch *touches, int32_t source, double mass, struct wall_neighbours *out,
-                        struct tangent_sums *tangent)
+                        const struct layer_sums *layers, int32_t source, double mass,
+                        struct wall_neighbours *out, struct tangent_sums *tangent)
 {
     const double dx = view->spacing;
     *tangent = (struct tangent_sums){0.0, 0.0};
     for (int m = 0; m < s->shares.layers; ++m) {
         const double height = (m + 0.5) * dx, f = height / contact->layer;
-        struct layer_sums sums;
-        layer_sum(s, contact, touches, height, &sums);
-        const double length = sqrt(dot(sums.normal, sums.normal));
-        if (!(length > 0.0) && sums.viscous == 0.0)
+        const struct layer_sums *sums = &layers[m];
+        const double length = sqrt(dot(sums->normal, sums->normal));
+        if (!(length > 0.0) && sums->viscous == 0.0)
             break;
         double p = contact->p0, r = 0.0;
         for (int k = 0; k < 3; ++k) {
-            const double place = sums.strength != 0.0 ? sums.place[k] / sums.strength
-                                                      : (contact->d + height) * contact->e_r[k];
+            const double place = sums->strength != 0.0 ? sums->place[k] / sums->strength
+                                                       : (contact->d + height) * contact->e_r[k];
             p += (place - contact->d * contact->e_r[k]) * contact->gradient[k];
-            r -= length > 0.0 ? place * sums.normal[k] / length : -place * contact->e_r[k];
+            r -= length > 0.0 ? place * sums->normal[k] / length : -place * contact->e_r[k];
         }
         const size_t n = pack_common(view, contact, mass, p, source, out);
         /* the sum points from the particle, or towards it where facets seen from behind take away */
         const double sign = r < 0.0 ? -1.0 : 1.0;
         out->r[n] = fabs(r);
-        out->w[n] = sums.kernel;
-        out->dw[n] = length > 0.0 ? -sign * length : sums.viscous * r;
+        out->w[n] = sums->kernel;
+        out->dw[n] = length > 0.0 ? -sign * length : sums->viscous * r;
         out->share_density[n] = 1.0;
         out->share_pressure[n] = length > 0.0;
-        out->share_viscous[n] = sums.viscous * fabs(r) / out->dw[n];
+        out->share_viscous[n] = sums->viscous * fabs(r) / out->dw[n];
         for (int k = 0; k < 3; ++k) {
-            out->dx[k][n] = length > 0.0 ? sign * fabs(r) * sums.normal[k] / length : -r * contact->e_r[k];
-            if (sums.viscous != 0.0)
+            out->dx[k][n] = length > 0.0 ? sign * fabs(r) * sums->normal[k] / length : -r * contact->e_r[k];
+            if (sums->viscous != 0.0)
                 out->u_viscous[k][n] = (1.0 + f) * contact->u[k] - f * contact->mean_u[k];
         }
-        tangent->sum += sums.tangent;
-        tangent->p += sums.tangent * p;
+        tangent->sum += sums->tangent;
+        tangent->p += sums->tangent * p;
     }
     if (tangent->sum != 0.0)
         tangent->p /= tangent->sum;
 }
 
-/** Whether layers stand for the blocks in the sweeps: in 3-D, except where walls are as published. */
-static bool has_layers(const struct sliding *s)
-{
-    return s->shares.kernel.dim == 3 && !s->paper;
-}
-
-/** Touches of contact @p contact of a near particle. */
+/** Touches, and layers, of contact @p contact of a near particle. */
 static const struct touch *touches_of(const struct sliding *s, size_t near, const struct contact *contact)
 {
     return &s->touches[s->touch_start[near] + contact->first];
+}
+
+static const struct layer_sums *layers_of(const struct sliding *s, const struct contact *contact)
+{
+    return &s->layers[(size_t)(contact - s->contacts) * (size_t)s->shares.layers];
 }
 
 int sliding_gather(const struct boundary *boundary, const struct fluid_view *view, size_t near,
@@ -336,13 +358,14 @@ int sliding_gather(const struct boundary *boundary, const struct fluid_view *vie
     CALL(wall_neighbours_reserve(neighbours, n * s->block));
     neighbours->n = 0;
     for (size_t k = 0; k < n; ++k) {
-        const struct touch *touches = touches_of(s, near, &contacts[k]);
         struct tangent_sums tangent;
-        if (!has_layers(s)) {
-            pack_block(s, view, &contacts[k], touches, 0, (int32_t)k, mass, neighbours);
+        if (!s->layered) {
+            pack_block(s, view, &contacts[k], touches_of(s, near, &contacts[k]), 0, (int32_t)k, mass,
+                       neighbours);
             continue;
         }
-        pack_layers(s, view, &contacts[k], touches, (int32_t)k, mass, neighbours, &tangent);
+        pack_layers(s, view, &contacts[k], layers_of(s, &contacts[k]), (int32_t)k, mass, neighbours,
+                    &tangent);
         pack_tangents(view, &contacts[k], &tangent, mass, (int32_t)k, neighbours);
     }
     return 0;
@@ -534,13 +557,14 @@ static int near_tensors(const struct boundary *boundary, const struct fluid_view
         const bool same = contact->surface == source->surface;
         out->column = same ? list[source->tensor].row : out->row;
         out->n_columns = same ? list[source->tensor].n_rows : out->n_rows;
-        const struct touch *touches = touches_of(s, near, contact);
         struct tangent_sums tangent = {0.0, 0.0};
         block->n = 0;
-        if (has_layers(s))
-            pack_layers(s, view, contact, touches, (int32_t)k, view->particles->m[i], block, &tangent);
+        if (s->layered)
+            pack_layers(s, view, contact, layers_of(s, contact), (int32_t)k, view->particles->m[i], block,
+                        &tangent);
         else
-            pack_block(s, view, contact, touches, 0, (int32_t)k, view->particles->m[i], block);
+            pack_block(s, view, contact, touches_of(s, near, contact), 0, (int32_t)k, view->particles->m[i],
+                       block);
         contact_tensor(s, view, i, contact, source, same, block, tangent.sum, out);
     }
     return 0;

@@ -180,6 +180,7 @@ static int sliding_create(struct boundary *boundary, const struct model *model, 
     boundary->data = s;
     s->paper = boundary->wall->corners == CORNERS_PAPER;
     s->gradient = boundary->wall->pressure_gradient;
+    s->layered = view->dim == 3 && !s->paper;
     s->snap = SNAP_PART * view->kernel.support;
     s->flat = FLAT_PART * view->spacing;
     CALL(facet_shares_create(&s->shares, view->kernel, view->spacing, view->isa));
@@ -208,14 +209,16 @@ static void sliding_destroy(struct boundary *boundary)
         memory_free(s->work[k].touches);
         memory_free(s->work[k].owners);
         memory_free(s->work[k].order);
+        memory_free(s->work[k].list);
         wall_neighbours_reset(&s->work[k].neighbours);
     }
     void *const arrays[] = {
-        s->facets,      s->pieces,        s->shapes,        s->candidates, s->candidate_start,
-        s->pairs,       s->stamp,         s->pair_particle, s->mask,       s->count,
-        s->contacts,    s->contact_start, s->contact_count, s->touches,    s->touch_start,
-        s->touch_count, s->anchor,        s->anchor_weight, s->clear,      s->clear_x,
-        s->wall_x,      s->put,           s->work,          s->pending,    s->pending_moment};
+        s->facets,        s->pieces,        s->shapes,        s->candidates,    s->candidate_start,
+        s->pairs,         s->stamp,         s->pair_particle, s->mask,          s->count,
+        s->contacts,      s->contact_start, s->contact_count, s->touches,       s->layers,
+        s->touch_start,   s->touch_count,   s->anchor,        s->anchor_weight, s->clear,
+        s->clear_x,       s->wall_x,        s->put,           s->work,          s->pending,
+        s->pending_moment};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
         memory_free(arrays[k]);
     memory_free(s);

@@ -21,6 +21,16 @@ struct touch {
                     up to 1 */
 };
 
+/** 3-D: what the particles of one layer behind all touches of a contact add up to, with their shares. */
+struct layer_sums {
+    double kernel;    /**< W, share of density */
+    double normal[3]; /**< W' y/r e_r, share of pressure */
+    double place[3];  /**< W' y/r times the place from the particle, share of pressure */
+    double strength;  /**< W' y/r, share of pressure */
+    double viscous;   /**< W'/r, share of viscosity */
+    double tangent;   /**< W' s^2/r, share of pressure */
+};
+
 /** Virtual boundary particles behind a wall, of one near particle: a block behind each touch, all with the
  * same smoothed values and the same motion of the wall. In 3-D facets turned by little against the strongest
  * one share a contact with it; otherwise each has its own. Places are in the image of the particle; they, and
@@ -41,8 +51,12 @@ struct contact {
     int32_t surface;
     int32_t source; /**< contact of the same particle whose sums are used: itself, or another one's source */
     size_t tensor;  /**< where its added mass stands in the surface's list, or SIZE_MAX */
-    bool front;     /**< the particle is on the fluid side */
-    bool apart;     /**< the particle has penetrated: evaluated from another place */
+    size_t
+        listed; /**< sums: where the list of particles around listed_c begins in the work of thread lister */
+    double listed_c[3];
+    uint32_t n_listed, lister;
+    bool front; /**< the particle is on the fluid side */
+    bool apart; /**< the particle has penetrated: evaluated from another place */
 };
 
 /** The wall point closest to a place, of one candidate. */
@@ -81,6 +95,8 @@ struct sliding_work {
     uint32_t *order;           /**< touches by contact */
     size_t hits_capacity, contacts_capacity, touches_capacity, owners_capacity, order_capacity;
     struct wall_neighbours neighbours;
+    uint32_t *list; /**< particles around contacts */
+    size_t n_list, list_capacity;
 };
 
 struct sliding {
@@ -109,6 +125,9 @@ struct sliding {
     size_t contact_count_capacity, touch_count_capacity;
     struct touch *touches; /**< of near particle k: from touch_start[k], touch_count[k] of them */
     size_t touches_capacity, *touch_start, touch_start_capacity;
+    struct layer_sums *layers; /**< of contact k (of all): shares.layers of them from there on, if layered */
+    size_t layers_capacity;
+    bool layered;   /**< layers stand for blocks in the sweeps: in 3-D, except where walls are as published */
     size_t anchors; /**< points of a touch: number j of touch t stands at anchors * t + j, -1 unused */
     int32_t *anchor;
     double *anchor_weight;
