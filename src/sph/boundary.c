@@ -41,6 +41,11 @@ int boundary_create(struct boundary **boundary, const struct model *model, int i
         b->coupled |= b->surfaces[s]->coupled;
     }
     b->moving |= motion_moves(&b->wall->motion);
+    b->turning = memory_create(b->n_surfaces, sizeof *b->turning);
+    CHECK_MEMORY(b->turning);
+    for (size_t s = 0; s < b->n_surfaces; ++s)
+        if (b->surfaces[s]->moving && b->surfaces[s]->definition->kind == SURFACE_FACETS)
+            CALL(turning_load_create(&b->turning[s], b->surfaces[s], view->kernel.h));
     CALL(state_register(b));
     return b->type->create(b, model, view);
 }
@@ -51,6 +56,9 @@ void boundary_destroy(struct boundary *boundary)
         return;
     if (boundary->type)
         boundary->type->destroy(boundary);
+    for (size_t s = 0; boundary->turning && s < boundary->n_surfaces; ++s)
+        turning_load_reset(&boundary->turning[s]);
+    memory_free(boundary->turning);
     memory_free(boundary->surfaces);
     memory_free(boundary->near);
     memory_free(boundary->kernel_sum);
@@ -69,45 +77,6 @@ int boundary_prepare(struct boundary *boundary, const struct fluid_view *view, b
     for (size_t s = 0; s < boundary->n_surfaces; ++s)
         surface_at(boundary->surfaces[s], view->t);
     return boundary->type->prepare(boundary, view, again);
-}
-
-/** Integral of (grad v)^T n over facet @p f of a surface as it is now: that of dl x v along its edges
- * (Stokes), in which only values on the facet occur. In 2-D, per depth: e_z x (v_end - v_begin). */
-static void facet_turning(const struct surface *surface, size_t f, double integral[3])
-{
-    const int32_t *nodes = surface->nodes[f];
-    const double(*x)[3] = (const double(*)[3])surface->now.x, (*v)[3] = (const double(*)[3])surface->now.v;
-    integral[0] = integral[1] = integral[2] = 0.0;
-    if (surface->dim == 2) {
-        integral[0] = v[nodes[0]][1] - v[nodes[1]][1];
-        integral[1] = v[nodes[1]][0] - v[nodes[0]][0];
-        return;
-    }
-    const int corners = nodes[3] < 0 ? 3 : 4;
-    for (int c = 0; c < corners; ++c) {
-        const int32_t from = nodes[c], to = nodes[(c + 1) % corners];
-        double edge[3], mean[3];
-        for (int k = 0; k < 3; ++k) {
-            edge[k] = x[to][k] - x[from][k];
-            mean[k] = 0.5 * (v[from][k] + v[to][k]);
-        }
-        integral[0] += edge[1] * mean[2] - edge[2] * mean[1];
-        integral[1] += edge[2] * mean[0] - edge[0] * mean[2];
-        integral[2] += edge[0] * mean[1] - edge[1] * mean[0];
-    }
-}
-
-static void facets_turning_load(struct surface *surface, double viscosity)
-{
-    for (size_t f = 0; f < surface->n_facets; ++f) {
-        const int32_t *nodes = surface->nodes[f];
-        const int corners = nodes[2] < 0 ? 2 : nodes[3] < 0 ? 3 : 4;
-        double integral[3];
-        facet_turning(surface, f, integral);
-        for (int c = 0; c < corners; ++c)
-            for (int k = 0; k < 3; ++k)
-                surface->load[nodes[c]][k] += viscosity * integral[k] / corners;
-    }
 }
 
 /** A circle or a sphere that turns; a plane has no end and neither has a cylinder in 3-D. */
@@ -135,7 +104,7 @@ void boundary_load(struct boundary *boundary, const struct fluid_view *view)
     for (size_t s = 0; s < boundary->n_surfaces; ++s) {
         struct surface *surface = boundary->surfaces[s];
         if (surface->moving && surface->definition->kind == SURFACE_FACETS)
-            facets_turning_load(surface, view->viscosity);
+            turning_load_add(&boundary->turning[s], view->viscosity, surface->load);
         else if (surface->moving)
             shape_turning_load(surface, view);
     }

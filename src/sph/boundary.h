@@ -9,6 +9,7 @@
 #include "sph/cell_grid.h"
 #include "sph/isa.h"
 #include "sph/kernel.h"
+#include "sph/turning_load.h"
 
 /** The seam between fluid and walls: wall/ implements it, fluid/ calls it. Everything here is double
  * precision and in global coordinates, so that action and reaction are equal to rounding. */
@@ -89,9 +90,10 @@ struct boundary {
     const struct model_wall *wall;
     void *data; /**< of the treatment */
     size_t n_surfaces;
-    struct surface **surfaces; /**< not owned */
-    bool moving;               /**< some surface moves, or the wall particles do */
-    bool coupled;              /**< some surface is moved by a solid */
+    struct surface **surfaces;    /**< not owned */
+    struct turning_load *turning; /**< of each moving surface of facets */
+    bool moving;                  /**< some surface moves, or the wall particles do */
+    bool coupled;                 /**< some surface is moved by a solid */
     size_t n_near, near_capacity;
     uint32_t *near;                 /**< indices of near particles in the moving block, ascending */
     double *kernel_sum;             /**< per near particle: sum over the wall of share_density W, 1/m^dim */
@@ -117,11 +119,8 @@ int boundary_state(struct boundary *boundary, struct field_list *list);
 /** Evaluate the surfaces at view->t, then prepare. */
 int boundary_prepare(struct boundary *boundary, const struct fluid_view *view, bool again);
 
-/** Loads of the surfaces: the reactions, and the part of the viscous stress at a turning or stretched wall
- * that the forces between particles have not. Their sum is eta laplace(u), with the traction eta du/dn; a
- * Newtonian fluid's has eta (grad u)^T n besides. Over a closed surface that adds up to no force, but to a
- * moment of -2 eta volume x angular velocity: without it a cylinder that turns freely in a shear flow
- * turns 1.6 times too fast. */
+/** Loads of the surfaces: the reactions, and what the forces between particles leave out of the viscous
+ * stress at walls that turn or stretch (turning_load.h). */
 void boundary_load(struct boundary *boundary, const struct fluid_view *view);
 
 /** Room for @p n near particles (near, kernel_sum). */

@@ -5,7 +5,8 @@ libskerry_la_SOURCES += \
 	src/sph/kernel.h \
 	src/sph/neighbour_list.c src/sph/neighbour_list.h \
 	src/sph/open_boundary.h \
-	src/sph/shepard.c src/sph/shepard.h
+	src/sph/shepard.c src/sph/shepard.h \
+	src/sph/turning_load.c src/sph/turning_load.h
 
 # Compiled once per instruction set (top Makefile.am).
 filter_sources = src/sph/neighbour_filter.c src/sph/sweep_vector.h

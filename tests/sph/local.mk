@@ -13,3 +13,8 @@ check_PROGRAMS += tests/sph/test_shepard
 tests_sph_test_shepard_SOURCES = tests/sph/test_shepard.c tests/sph/points.h
 tests_sph_test_shepard_LDADD = $(test_libs)
 TESTS += tests/sph/test_shepard
+
+check_PROGRAMS += tests/sph/test_turning_load
+tests_sph_test_turning_load_SOURCES = tests/sph/test_turning_load.c
+tests_sph_test_turning_load_LDADD = $(test_libs)
+TESTS += tests/sph/test_turning_load
