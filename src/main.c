@@ -284,7 +284,7 @@ static const struct option options[] = {
     {"--range", 0, "A:B", "picture", "values at the ends of the colour bar (default: those that occur)",
      set_range},
     {"--window", 0, "X0:X1:Y0:Y1", "picture", "part of the plane to draw (default: all)", set_window},
-    {"--slab", 0, "Z0:Z1", "picture", "3-D: draw only what lies between (default: all)", set_slab},
+    {"--slab", 0, "Z0:Z1", "picture", "3-D: particles between, and solids up to there (default: all)", set_slab},
     {"--width", 0, "PIXELS", "picture", "width of the picture (default: 1600)", set_width},
     {"--file", 0, "FILE", "picture", "PNG to write (default: OUTPUT/FIELD_FRAME.png)", set_file},
     {"--point", 0, "X,Y,Z", "probe", "a place, as many numbers as the run has dimensions (may be repeated)",

@@ -13,8 +13,9 @@ struct picture {
     double range[2];
     bool has_window;
     double window[4]; /**< x0, x1, y0, y1 */
-    double slab[2];   /**< 3-D: particles with slab[0] <= z <= slab[1] are drawn; equal: all */
-    int width;        /**< pixels */
+    double slab[2]; /**< 3-D: particles with slab[0] <= z <= slab[1] are drawn, and elements and facets whose
+                       centres have z <= slab[1]; equal: all */
+    int width;      /**< pixels */
     const char *file; /**< PNG to write; NULL: OUTPUT/FIELD_FRAME.png */
 };
 

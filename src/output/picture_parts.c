@@ -184,6 +184,21 @@ static void line_draw(struct canvas *canvas, const struct scene *scene, const st
     canvas_line(canvas, from, to, fmax(1.0, 0.14 * frame->letter), line_colour);
 }
 
+// Whether an element or a facet stands before the slab, so that it would hide what lies in it.
+static bool hides_slab(const struct scene *scene, const struct scene_part *part,
+                       const struct picture_frame *frame, const int64_t *nodes, int64_t n)
+{
+    double sum = 0.0;
+    if (scene->dim < 3 || !(frame->slab[0] < frame->slab[1]))
+        return false;
+    for (int64_t k = 0; k < n; ++k) {
+        double x[3];
+        series_point(&part->file.grid, (size_t)nodes[k], x);
+        sum += x[2];
+    }
+    return sum > (double)n * frame->slab[1];
+}
+
 void picture_part_draw(struct canvas *canvas, const struct scene *scene, const struct scene_part *part,
                        const struct picture_frame *frame)
 {
@@ -193,6 +208,8 @@ void picture_part_draw(struct canvas *canvas, const struct scene *scene, const s
         const int64_t *nodes = grid->connectivity + begin, n = grid->offsets[e] - begin;
         if (grid->types[e] == VTK_VERTEX && n == 1)
             particle_draw(canvas, scene, part, frame, nodes[0]);
+        else if (hides_slab(scene, part, frame, nodes, n))
+            continue;
         if (grid->types[e] == VTK_LINE && n == 2)
             line_draw(canvas, scene, part, frame, nodes);
         for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k)

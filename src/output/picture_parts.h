@@ -12,7 +12,7 @@ struct picture_frame {
     double x0, y0;    /**< pixel of that place */
     double letter;    /**< height of capitals: the measure of line widths */
     double range[2];  /**< values at the ends of the colours */
-    double slab[2];   /**< 3-D: particles between are drawn; equal: all */
+    double slab[2];   /**< 3-D: particles between, and what else lies not before it, are drawn; equal: all */
 };
 
 /** Draw one part: particles as discs (3-D: balls) of the size of their volume, elements filled with their

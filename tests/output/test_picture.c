@@ -381,6 +381,12 @@ static void test_space(void **state)
     is = image.rgb + 3 * ((size_t)(top + scale * 0.18) * 1000 + (size_t)(left + scale * 0.45));
     assert_true(abs(is[0] - is[1]) < 8 && is[0] > 180);
     free(image.rgb);
+    picture.slab[0] = -0.6;
+    picture.slab[1] = -0.5; // the beam stands before it
+    assert_int_equal(picture_draw(&picture), 0);
+    image = image_read(path);
+    assert_colour(&image, left + scale * 0.45, top + scale * 0.18, (struct colour){255, 255, 255}, 0);
+    free(image.rgb);
 }
 
 static void test_errors(void **state)
