@@ -51,15 +51,23 @@ static size_t edges_list(const struct facets *facets, size_t surface, struct edg
     return count;
 }
 
+/** How often the edges beginning with @p edges (sorted) that are one are walked upwards less downwards; @p
+ * next: the first that is another. */
+static int edge_excess(const struct edge *edges, size_t count, size_t *next)
+{
+    int sum = 0;
+    for (*next = 0; *next < count && edge_compare(edges, &edges[*next]) == 0; ++*next)
+        sum += edges[*next].direction;
+    return sum;
+}
+
 /** Edges of which the directions do not cancel, as often as is left, into @p rims; returns their number. */
 static size_t rims_list(const struct facets *const *surfaces, const struct edge *edges, size_t count,
                         struct rim *rims)
 {
     size_t n = 0;
-    for (size_t i = 0, j; i < count; i = j) {
-        int sum = 0;
-        for (j = i; j < count && edge_compare(&edges[i], &edges[j]) == 0; j++)
-            sum += edges[j].direction;
+    for (size_t i = 0, same; i < count; i += same) {
+        const int sum = edge_excess(edges + i, count - i, &same);
         const double(*points)[3] = (const double(*)[3])surfaces[edges[i].surface]->points;
         const int32_t from = sum > 0 ? edges[i].low : edges[i].high,
                       to = sum > 0 ? edges[i].high : edges[i].low;
@@ -70,6 +78,29 @@ static size_t rims_list(const struct facets *const *surfaces, const struct edge 
         }
     }
     return n;
+}
+
+int facets_open_edges(const struct facets *facets, int32_t (**open)[2], size_t *n)
+{
+    *n = 0;
+    struct edge *edges = memory_create(4 * facets->n_facets, sizeof *edges);
+    *open = memory_create(4 * facets->n_facets, sizeof **open);
+    if (!edges || !*open) {
+        memory_free(edges);
+        return STATUS_MEMORY;
+    }
+    const size_t count = edges_list(facets, 0, edges);
+    if (count)
+        qsort(edges, count, sizeof *edges, edge_compare);
+    for (size_t i = 0, same; i < count; i += same) {
+        const int sum = edge_excess(edges + i, count - i, &same);
+        for (int k = 0; k < abs(sum); k++) {
+            (*open)[*n][0] = sum > 0 ? edges[i].low : edges[i].high;
+            (*open)[(*n)++][1] = sum > 0 ? edges[i].high : edges[i].low;
+        }
+    }
+    memory_free(edges);
+    return 0;
 }
 
 static bool rim_is_inside(const struct rim *rim, int dim, const double lower[3], const double upper[3])

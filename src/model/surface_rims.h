@@ -19,4 +19,9 @@ struct surface_rims {
 int surface_rims_find(const struct facets *const *surfaces, size_t n, double tolerance, double reach,
                       const double lower[3], const double upper[3], struct surface_rims *rims);
 
+/** Edges of a surface (3-D: first and last point as they are walked; 2-D: an end's point, twice) that its own
+ * facets do not walk as often in one direction as in the other: an array of @p n pairs of points in @p edges,
+ * to be freed by memory_free. Returns 0 or STATUS_MEMORY. */
+int facets_open_edges(const struct facets *facets, int32_t (**edges)[2], size_t *n);
+
 #endif

@@ -11,13 +11,19 @@
  *
  * On facets grad u is that of the surface's own velocity, as far as the fluid can follow it: the motion of a
  * rigid body that is nearest to it, plus the rest averaged over about a smoothing length. Waves of shorter
- * facets, which particles do not see and hence do not damp, would feed themselves otherwise. */
+ * facets, which particles do not see and hence do not damp, would feed themselves otherwise. Where a surface
+ * ends, the velocities along its rim are all that the sum of the loads depends on: they are averaged along
+ * the rim only, so that a held rim stays held, and the sum zero. */
 struct turning_load {
     const struct surface *surface; /**< of facets */
+    size_t n_points;               /**< those there were at first: walls of material points append theirs */
     size_t passes;                 /**< each averages over the facets around a point */
     double (*v)[3];                /**< velocity of the points, averaged */
     double (*sum)[3];
-    uint32_t *n_facets; /**< around each point */
+    int32_t (*rim)[2]; /**< points of edges where the surface ends (2-D: a point, twice) */
+    size_t n_rim;
+    bool *on_rim;
+    uint32_t *n_means; /**< facets around each point, or ends of edges of the rim there; 0: in no facet */
 };
 
 /** For a surface of facets in a fluid of smoothing length @p h. Free with turning_load_reset. */

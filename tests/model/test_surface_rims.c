@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "base/memory.h"
 #include "model/surface_rims.h"
 
 #include <math.h>
@@ -112,11 +113,38 @@ static void test_gaps(void **state)
     assert_float_equal(rims.place[1], 2.0, 0.31);
 }
 
+/** Two triangles and a quad in a row: six sides are open, and walked as the facets are; in 2-D two ends. */
+static void test_open_edges(void **state)
+{
+    (void)state;
+    double points[6][3] = {{0.0}};
+    int32_t nodes[3][4] = {{4, 1, 0, -1}, {0, 3, 4, -1}, {1, 4, 5, 2}}, (*edges)[2];
+    static const int32_t expected[6][2] = {{1, 0}, {0, 3}, {2, 1}, {5, 2}, {3, 4}, {4, 5}};
+    struct facets facets = {.dim = 3, .n_points = 6, .n_facets = 3, .points = points, .nodes = nodes};
+    size_t n;
+    assert_int_equal(facets_open_edges(&facets, &edges, &n), 0);
+    assert_int_equal(n, 6);
+    for (size_t e = 0; e < n; ++e) {
+        bool found = false;
+        for (int k = 0; k < 6; ++k)
+            found = found || !memcmp(edges[e], expected[k], sizeof *edges);
+        assert_true(found);
+    }
+    memory_free(edges);
+    int32_t line[2][4] = {{2, 5, -1, -1}, {5, 1, -1, -1}};
+    facets = (struct facets){.dim = 2, .n_points = 6, .n_facets = 2, .points = points, .nodes = line};
+    assert_int_equal(facets_open_edges(&facets, &edges, &n), 0);
+    assert_int_equal(n, 2);
+    assert_true(edges[0][0] == 1 && edges[0][1] == 1 && edges[1][0] == 2 && edges[1][1] == 2);
+    memory_free(edges);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_hanging_nodes),
         cmocka_unit_test(test_gaps),
+        cmocka_unit_test(test_open_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

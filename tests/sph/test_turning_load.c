@@ -127,23 +127,68 @@ static void test_wave(void **state)
     }
 }
 
-/** A segment along x that is stretched and turned: e_z x (v_end - v_begin), half to each end. */
+/** A box without the side where x is largest, held along its rim: nothing pulls on the whole. */
+static void test_open(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; ++dim) {
+        struct surface surface;
+        double force[3], moment[3];
+        size_t n = 0;
+        box_create(&surface, dim);
+        for (size_t f = 0; f < surface.n_facets; ++f) {
+            bool side = true;
+            for (int c = 0; c < 4 && surface.nodes[f][c] >= 0; ++c)
+                side = side && surface.X[surface.nodes[f][c]][0] > size[0] - 0.1 - 1e-9;
+            if (!side)
+                memcpy(surface.nodes[n++], surface.nodes[f], sizeof *surface.nodes);
+        }
+        assert_int_equal(surface.n_facets - n, dim == 2 ? 3 : 15);
+        surface.n_facets = n;
+        move(&surface, 1.0, 0.6);
+        for (size_t i = 0; i < surface.n_points; ++i)
+            for (int k = 0; k < 3 && surface.X[i][0] > size[0] - 0.1 - 1e-9; ++k)
+                surface.now.v[i][k] = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            static const double h[3] = {0.05, 0.13, 0.4};
+            assert_true(apply(&surface, h[k], force, moment) > 0.01);
+            for (int d = 0; d < 3; ++d)
+                assert_true(fabs(force[d]) < 1e-14);
+        }
+        box_free(&surface);
+    }
+}
+
+/** A segment along x that is stretched and turned: e_z x (v_end - v_begin), half to each end; nothing to the
+ * points that a wall appends after its creation. */
 static void test_segment(void **state)
 {
     (void)state;
-    double X[2][3] = {{0.1, 0.2, 0.0}, {0.5, 0.2, 0.0}}, v[2][3] = {{0.3, -0.2, 0.0}, {0.9, 0.4, 0.0}},
-           load[2][3];
+    enum { POINTS = 400 };
+    double X[POINTS][3] = {{0.1, 0.2, 0.0}, {0.5, 0.2, 0.0}},
+           v[POINTS][3] = {{0.3, -0.2, 0.0}, {0.9, 0.4, 0.0}}, load[POINTS][3];
     int32_t nodes[1][4] = {{0, 1, -1, -1}};
-    const struct surface surface = {
+    struct surface surface = {
         .dim = 2, .n_points = 2, .n_facets = 1, .X = X, .nodes = nodes, .now = {.x = X, .v = v}};
     struct turning_load turning;
-    memset(load, 0, sizeof load);
-    assert_int_equal(turning_load_create(&turning, &surface, 0.1), 0);
-    turning_load_add(&turning, viscosity, load);
-    for (int i = 0; i < 2; ++i)
-        assert_true(fabs(load[i][0] + 0.5 * viscosity * 0.6) < 1e-15 &&
-                    fabs(load[i][1] - 0.5 * viscosity * 0.6) < 1e-15);
-    turning_load_reset(&turning);
+    for (int i = 2; i < POINTS; ++i)
+        for (int k = 0; k < 2; ++k)
+            v[i][k] = X[i][k] = 1.0 + 0.1 * i + k;
+    for (int k = 0; k < 2; ++k) {
+        memset(load, 0, sizeof load);
+        surface.n_points = 2;
+        assert_int_equal(turning_load_create(&turning, &surface, k == 0 ? 0.1 : 0.7), 0);
+        assert_true((turning.passes > 0) == (k == 1));
+        surface.n_points = POINTS;
+        turning_load_add(&turning, viscosity, load);
+        for (int i = 0; i < POINTS; ++i) {
+            const double expected = i < 2 && k == 0 ? 0.5 * viscosity * 0.6 : 0.0;
+            assert_true(k == 1 || fabs(load[i][0] + expected) < 1e-15);
+            assert_true(k == 1 || fabs(load[i][1] - expected) < 1e-15);
+            assert_true(i < 2 || (load[i][0] == 0.0 && load[i][1] == 0.0));
+        }
+        turning_load_reset(&turning);
+    }
 }
 
 int main(void)
@@ -151,6 +196,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rotation),
         cmocka_unit_test(test_wave),
+        cmocka_unit_test(test_open),
         cmocka_unit_test(test_segment),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
