@@ -96,6 +96,9 @@ try cylinder-2d2 --dx 0.01 --wall fixed-particles
 try cylinder-2d2 --dx 0.41/50 --facets 24 --corners paper
 try isochoric-box --wall fixed-particles
 try isochoric-box --dx 0.0025
+try balloon --dx 0.2 --rigid
+[ "$(grep -c 'mesh\|solid\|coupling' "$work/variant$n.xml")" = 0 ] || fail "balloon --rigid has a solid"
+try balloon --dx 0.2 --formulation eas --corners paper
 try channel --wall fixed-particles --dx 0.01
 try box-2d --cells 31 29
 try box-3d --cells 12 13 14

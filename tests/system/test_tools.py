@@ -191,6 +191,14 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(bench.target_of("channel-fixed", {"box-2d": 10e6}), 8.5e6)
         self.assertAlmostEqual(bench.target_of("fsi2-coupled", {"fsi2-rigid": 10e6}), 8e6)
 
+    def test_cost_of_coupling(self):
+        rows = [{"name": name, "threads": threads, "updates_per_s": rate, "iterations_mean": 2.0}
+                for name, threads, rate in (("fsi2-rigid", 2, 9e6), ("fsi2-coupled", 2, 7.5e6), ("balloon-rigid", 2, 2.1e6),
+                                            ("fsi2-rigid", 1, 5e6), ("fsi2-coupled", 1, 2e6))]
+        self.assertEqual(bench.ratios(rows), {"fsi2": 1.2})
+        rows.append({"name": "balloon-coupled", "threads": 2, "updates_per_s": 0.7e6})
+        self.assertAlmostEqual(bench.ratios(rows)["balloon"], 3.0)
+
     def test_cost_of_a_frame(self):
         rows = [{"name": "fsi2-rigid", "threads": 2, "steps": 300, "wall_s": 6.0, "phases_s": {"output": 0.1}},
                 {"name": "fsi2-output", "threads": 2, "steps": 300, "wall_s": 6.5, "phases_s": {"output": 0.5}}]
