@@ -394,6 +394,8 @@ static size_t bundle(const struct sliding *s, struct sliding_work *work, size_t 
         work->touches[k].piece = work->owners[k]->piece;
         memcpy(work->touches[k].at, work->owners[k]->at.closest, sizeof work->touches[k].at);
         work->touches[k].d = contacts[k].d;
+    }
+    for (size_t k = 0; k < n; ++k) {
         if (together && contacts[k].source != (int32_t)k && joins_source(work, k))
             continue;
         contacts[k].first = placed;

@@ -150,44 +150,54 @@ static void contact_borrow(const struct fluid_view *view, const struct contact *
     contact->layer = fmax(dot(to, contact->e_r), LEAST_LAYER * view->spacing);
 }
 
-/** Sums of the contacts of a near particle that have their own. */
-static int near_sums(struct boundary *boundary, const struct fluid_view *view, size_t near)
+/** List particles for the sums of a near particle's contacts that have none or have moved. */
+static int near_lists(struct boundary *boundary, const struct fluid_view *view, size_t near)
 {
     const struct sliding *s = boundary->data;
     struct contact *contacts = &s->contacts[s->contact_start[near]];
     const double margin = LIST_MARGIN * view->spacing;
     for (size_t k = 0; k < s->contact_count[near]; ++k) {
         struct contact *contact = &contacts[k];
-        if (contact->source != (int32_t)k)
-            continue;
         double moved[3];
         for (int d = 0; d < 3; ++d)
             moved[d] = contact->c[d] - contact->listed_c[d];
-        if (contact->n_listed == 0 || !(dot(moved, moved) < margin * margin))
+        if (contact->source == (int32_t)k &&
+            (contact->n_listed == 0 || !(dot(moved, moved) < margin * margin)))
             CALL(contact_list(s, view, (uint32_t)omp_get_thread_num(), contact));
-        contact_sums(s, view, boundary->near[near], contact);
     }
     return 0;
 }
 
-int sliding_close(struct boundary *boundary, const struct fluid_view *view)
+/** Values behind the contacts of a near particle. */
+static void near_values(struct boundary *boundary, const struct fluid_view *view, size_t near)
 {
     const struct sliding *s = boundary->data;
-    int status = 0;
-#pragma omp parallel for schedule(dynamic, 16) reduction(| : status)
-    for (size_t near = 0; near < boundary->n_near; ++near) {
-        struct contact *contacts = &s->contacts[s->contact_start[near]];
-        const size_t n = s->contact_count[near];
-        if (!status)
-            status = near_sums(boundary, view, near);
-        for (size_t k = 0; k < n; ++k) {
-            const struct contact *source = &contacts[contacts[k].source];
-            contact_pressure(s, view, source, &contacts[k]);
-            if (contacts[k].front && source != &contacts[k])
-                contact_borrow(view, source, &contacts[k]);
-        }
+    struct contact *contacts = &s->contacts[s->contact_start[near]];
+    const size_t n = s->contact_count[near];
+    for (size_t k = 0; k < n; ++k)
+        if (contacts[k].source == (int32_t)k)
+            contact_sums(s, view, boundary->near[near], &contacts[k]);
+    for (size_t k = 0; k < n; ++k) {
+        const struct contact *source = &contacts[contacts[k].source];
+        contact_pressure(s, view, source, &contacts[k]);
+        if (contacts[k].front && source != &contacts[k])
+            contact_borrow(view, source, &contacts[k]);
     }
-    return status;
+}
+
+int sliding_close(struct boundary *boundary, const struct fluid_view *view)
+{
+    int status = 0;
+    /* a list grows in the place of the thread that makes it, and is read by any: all are made first */
+#pragma omp parallel for schedule(dynamic, 16) reduction(| : status)
+    for (size_t near = 0; near < boundary->n_near; ++near)
+        if (!status)
+            status = near_lists(boundary, view, near);
+    CALL(status);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (size_t near = 0; near < boundary->n_near; ++near)
+        near_values(boundary, view, near);
+    return 0;
 }
 
 void sliding_touch_direction(const struct contact *contact, const struct touch *touches, uint32_t t,
