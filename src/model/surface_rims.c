@@ -80,7 +80,7 @@ static size_t rims_list(const struct facets *const *surfaces, const struct edge 
     return n;
 }
 
-int facets_open_edges(const struct facets *facets, int32_t (**open)[2], size_t *n)
+int surface_rims_edges(const struct facets *facets, int32_t (**open)[2], size_t *n)
 {
     *n = 0;
     struct edge *edges = memory_create(4 * facets->n_facets, sizeof *edges);

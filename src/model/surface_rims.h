@@ -22,6 +22,6 @@ int surface_rims_find(const struct facets *const *surfaces, size_t n, double tol
 /** Edges of a surface (3-D: first and last point as they are walked; 2-D: an end's point, twice) that its own
  * facets do not walk as often in one direction as in the other: an array of @p n pairs of points in @p edges,
  * to be freed by memory_free. Returns 0 or STATUS_MEMORY. */
-int facets_open_edges(const struct facets *facets, int32_t (**edges)[2], size_t *n);
+int surface_rims_edges(const struct facets *facets, int32_t (**edges)[2], size_t *n);
 
 #endif

@@ -51,7 +51,7 @@ static int neighbours_count(struct turning_load *load)
                                   .nodes = surface->nodes};
     CHECK_MEMORY(load->n_means = memory_create(load->n_points, sizeof *load->n_means));
     CHECK_MEMORY(load->on_rim = memory_create(load->n_points, sizeof *load->on_rim));
-    CALL(facets_open_edges(&facets, &load->rim, &load->n_rim));
+    CALL(surface_rims_edges(&facets, &load->rim, &load->n_rim));
     for (size_t e = 0; e < load->n_rim; ++e)
         for (int c = 0; c < 2; ++c) {
             load->on_rim[load->rim[e][c]] = true;

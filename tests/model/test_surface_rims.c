@@ -122,7 +122,7 @@ static void test_open_edges(void **state)
     static const int32_t expected[6][2] = {{1, 0}, {0, 3}, {2, 1}, {5, 2}, {3, 4}, {4, 5}};
     struct facets facets = {.dim = 3, .n_points = 6, .n_facets = 3, .points = points, .nodes = nodes};
     size_t n;
-    assert_int_equal(facets_open_edges(&facets, &edges, &n), 0);
+    assert_int_equal(surface_rims_edges(&facets, &edges, &n), 0);
     assert_int_equal(n, 6);
     for (size_t e = 0; e < n; ++e) {
         bool found = false;
@@ -133,7 +133,7 @@ static void test_open_edges(void **state)
     memory_free(edges);
     int32_t line[2][4] = {{2, 5, -1, -1}, {5, 1, -1, -1}};
     facets = (struct facets){.dim = 2, .n_points = 6, .n_facets = 2, .points = points, .nodes = line};
-    assert_int_equal(facets_open_edges(&facets, &edges, &n), 0);
+    assert_int_equal(surface_rims_edges(&facets, &edges, &n), 0);
     assert_int_equal(n, 2);
     assert_true(edges[0][0] == 1 && edges[0][1] == 1 && edges[1][0] == 2 && edges[1][1] == 2);
     memory_free(edges);
