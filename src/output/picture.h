@@ -7,7 +7,8 @@
 /** What to draw of an output folder. */
 struct picture {
     const char *output; /**< folder of a run */
-    const char *field;  /**< "Speed" (magnitude of Velocity), or an array of the fluid; vectors: magnitude */
+    const char *field;  /**< "Speed" (magnitude of Velocity), an array of the fluid (vectors: magnitude), or
+                           NAME_x, _y, _z */
     const char *frame;  /**< "last", "first", a number, or "t=VALUE" */
     bool has_range;
     double range[2];

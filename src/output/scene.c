@@ -13,10 +13,13 @@
 enum { VERTEX = 1 }; // VTK cell type
 static const char speed[] = "Speed";
 
-static double array_magnitude(const struct vtu_array *array, size_t index)
+// What is drawn of an array: one of its components, or (below 0) a scalar or the magnitude of a vector.
+static double array_value(const struct vtu_array *array, int component, size_t index)
 {
     size_t n = (size_t)array->components;
     double sum = 0.0;
+    if (component >= 0)
+        return series_value(array, n * index + (size_t)component);
     if (n == 1)
         return series_value(array, index);
     for (size_t c = 0; c < n; ++c)
@@ -97,7 +100,7 @@ static double size_find(const struct scene *scene, const struct vtu_grid *grid, 
 }
 
 // Values of cells at points: the mean of the cells around.
-static int cells_spread(struct scene_part *part, const struct vtu_array *array)
+static int cells_spread(struct scene_part *part, const struct vtu_array *array, int component)
 {
     const struct vtu_grid *grid = &part->file.grid;
     uint32_t *count = memory_create(grid->n_points, sizeof *count);
@@ -105,7 +108,7 @@ static int cells_spread(struct scene_part *part, const struct vtu_array *array)
     int64_t begin = 0;
     for (size_t e = 0; e < grid->n_cells; begin = grid->offsets[e++])
         for (int64_t k = begin; k < grid->offsets[e]; ++k) {
-            part->values[grid->connectivity[k]] += array_magnitude(array, e);
+            part->values[grid->connectivity[k]] += array_value(array, component, e);
             ++count[grid->connectivity[k]];
         }
     for (size_t i = 0; i < grid->n_points; ++i)
@@ -131,21 +134,41 @@ static int field_unknown(const struct scene_part *part, const char *name)
                         close ? "; did you mean \"" : "", close ? close : "", close ? "\"" : "", list);
 }
 
+// The array called @p name, or, for NAME_x, NAME_y or NAME_z, the vector NAME and its component (else -1).
+static const struct vtu_array *array_choose(const struct vtu_array *arrays, size_t n, const char *name,
+                                            int *component)
+{
+    const size_t length = strlen(name);
+    const struct vtu_array *array = series_array(arrays, n, name);
+    char vector[96];
+    *component = -1;
+    if (array || length < 3 || length >= sizeof vector || name[length - 2] != '_')
+        return array;
+    memcpy(vector, name, length - 2);
+    vector[length - 2] = '\0';
+    array = series_array(arrays, n, vector);
+    *component = name[length - 1] - 'x';
+    return array && *component >= 0 && *component < 3 && array->components == 3 ? array : NULL;
+}
+
 static int values_fill(struct scene *scene, struct scene_part *part, const char *name)
 {
     const struct vtu_grid *grid = &part->file.grid;
     const char *array_name = strcmp(name, speed) == 0 ? "Velocity" : name;
-    const struct vtu_array *points = series_array(grid->point_arrays, grid->n_point_arrays, array_name),
-                           *cells = series_array(grid->cell_arrays, grid->n_cell_arrays, array_name);
+    int component, of_cell;
+    const struct vtu_array *points =
+                               array_choose(grid->point_arrays, grid->n_point_arrays, array_name, &component),
+                           *cells =
+                               array_choose(grid->cell_arrays, grid->n_cell_arrays, array_name, &of_cell);
     if (!points && !cells)
         return field_unknown(part, name);
     part->values = memory_create(grid->n_points, sizeof *part->values);
     CHECK_MEMORY(part->values);
     if (!points)
-        CALL(cells_spread(part, cells));
+        CALL(cells_spread(part, cells, of_cell));
     for (size_t i = 0; i < grid->n_points; ++i) {
         if (points)
-            part->values[i] = array_magnitude(points, i);
+            part->values[i] = array_value(points, component, i);
         if (isfinite(part->values[i])) {
             scene->range[0] = fmin(scene->range[0], part->values[i]);
             scene->range[1] = fmax(scene->range[1], part->values[i]);

@@ -263,8 +263,15 @@ static void test_fields(void **state)
     assert_colour(&image, 500, top + 6, colour_map(1), 2);
     assert_colour(&image, 500, top + 0.3 * 915 - 7, colour_map(0), 2);
     free(image.rgb);
-    static const char *const wrong[] = {"Presure", "VonMises", "", "../Speed"};
-    for (size_t i = 0; i < 4; ++i) {
+    picture.field = "Velocity_y"; // falls along x
+    assert_int_equal(picture_draw(&picture), 0);
+    image = image_read(path);
+    assert_colour(&image, left + 6, top + 0.15 * 915, colour_map(1), 6);
+    assert_colour(&image, left + 909, top + 0.15 * 915, colour_map(0), 6);
+    free(image.rgb);
+    static const char *const wrong[] = {"Presure",    "VonMises",   "",  "../Speed",
+                                        "Velocity_w", "Pressure_x", "_x"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         picture.field = wrong[i];
         assert_int_equal(picture_draw(&picture), STATUS_USAGE);
     }
