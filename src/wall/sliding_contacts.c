@@ -567,48 +567,49 @@ static double near_kernel_sum(const struct sliding *s, size_t near)
     return sum;
 }
 
-/** Let a contact follow its facets: the place of the block and of the closest point, but not the weights. */
+/** Let a contact follow its facets: the place of the block and of the closest point, but not the weights. One
+ * that is evaluated from another place keeps its distances. */
 static void contact_follow(const struct boundary *boundary, size_t near, const double x[3],
                            struct contact *contact)
 {
     const struct sliding *s = boundary->data;
     struct touch *touches = &s->touches[s->touch_start[near] + contact->first];
-    double at[3];
-    for (int k = 0; k < 3; ++k)
+    const bool front = contact->front;
+    double at[3], block[3];
+    for (int k = 0; k < 3; ++k) {
         at[k] = x[k] - contact->shift[k];
-    for (uint32_t t = 0; t < contact->n_touches; ++t) {
-        const double d = piece_plane_distance(touches[t].piece, at);
-        touches[t].d = contact->front ? fmax(0.0, d) : fmax(LEAST_BEHIND * s->shares.dx, -d);
+        block[k] = contact->o[k] - contact->c[k];
     }
-    struct hit hit = {.piece = touches->piece, .at.d = contact->front ? touches->d : -touches->d};
+    for (uint32_t t = 0; t < contact->n_touches && !contact->apart; ++t) {
+        const double d = piece_plane_distance(touches[t].piece, at);
+        touches[t].d = front ? fmax(0.0, d) : fmax(LEAST_BEHIND * s->shares.dx, -d);
+    }
+    struct hit hit = {.piece = touches->piece, .at.d = front ? touches->d : -touches->d};
     memcpy(hit.at.closest, touches->at, sizeof hit.at.closest);
     memcpy(hit.shift, contact->shift, sizeof hit.shift);
     sliding_hit_place(&hit);
-    const bool front = contact->front;
     contact_at_plane(contact, &hit, x);
     contact->front = front;
-    contact_layers(s, near, contact);
+    for (int k = 0; k < 3 && contact->apart; ++k)
+        contact->o[k] = contact->c[k] + block[k];
+    if (s->layered)
+        contact_layers(s, near, contact);
     contact_motion(boundary, near, contact);
 }
 
-/** Contacts of one near particle for surfaces of solids that moved a little since they were found; false if
- * they must be found again. */
-static bool contacts_follow(struct boundary *boundary, const struct fluid_view *view, size_t near)
+/** Contacts of one near particle for surfaces of solids that moved a little since they were found. Which
+ * facets act from which side is not asked again: where that changed the iterations would not settle. */
+static void contacts_follow(struct boundary *boundary, const struct fluid_view *view, size_t near)
 {
     const struct sliding *s = boundary->data;
     const uint32_t i = boundary->near[near];
     const double x[3] = {view->particles->x[0][i], view->particles->x[1][i], view->particles->x[2][i]};
     struct contact *contacts = &s->contacts[s->contact_start[near]];
-    const size_t n = s->contact_count[near];
-    for (size_t k = 0; k < n; ++k)
-        if (contacts[k].apart)
-            return false;
-    for (size_t k = 0; k < n; ++k)
+    for (size_t k = 0; k < s->contact_count[near]; ++k)
         if (boundary->surfaces[contacts[k].surface]->coupled &&
             s->touches[s->touch_start[near] + contacts[k].first].piece)
             contact_follow(boundary, near, x, &contacts[k]);
     boundary->kernel_sum[near] = near_kernel_sum(s, near);
-    return true;
 }
 
 /** Contacts of one near particle into its slots; the counts say how many there are, they are stored only if
@@ -674,37 +675,41 @@ int sliding_reserve_contacts(struct sliding *s, size_t n)
                        sizeof *s->anchor_weight);
 }
 
+/** Contacts of all near particles; *@p full: some have more than there is room for. */
+static void contacts_find(struct boundary *boundary, const struct fluid_view *view, int *full)
+{
+    struct sliding *s = boundary->data;
+    int more = 0;
+#pragma omp parallel for schedule(dynamic, 16) reduction(max : more)
+    for (size_t near = 0; near < boundary->n_near; ++near) {
+        particle_contacts(boundary, view, near, &s->work[omp_get_thread_num()]);
+        if (s->contact_count[near] > s->contact_start[near + 1] - s->contact_start[near] ||
+            s->touch_count[near] > s->touch_start[near + 1] - s->touch_start[near])
+            more = 1;
+    }
+    *full = more;
+}
+
 int sliding_prepare(struct boundary *boundary, const struct fluid_view *view, bool again)
 {
     struct sliding *s = boundary->data;
     const size_t n = boundary->n_near;
-    // in 2-D contacts are cheap enough to find them anew
-    again = again && s->layered;
-    for (size_t t = 0; t < s->n_work && !again; ++t)
-        s->work[t].n_list = 0;
-    sliding_place(boundary, again);
-    bool follow = again;
-    int full;
-    do {
-        full = 0;
-#pragma omp parallel for schedule(dynamic, 16) reduction(max : full)
-        for (size_t near = 0; near < n; ++near) {
-            if (follow && contacts_follow(boundary, view, near))
-                continue;
-            particle_contacts(boundary, view, near, &s->work[omp_get_thread_num()]);
-            if (s->contact_count[near] > s->contact_start[near + 1] - s->contact_start[near] ||
-                s->touch_count[near] > s->touch_start[near + 1] - s->touch_start[near])
-                full = 1;
-        }
-        if (full) {
-            room_grow(n, s->contact_count, s->contact_start);
-            room_grow(n, s->touch_count, s->touch_start);
-            CALL(sliding_reserve_contacts(s, n));
-            follow = false; /* what there was has lost its place */
-        }
-    } while (full);
-    if (again)
+    const bool follow = again && !s->paper;
+    sliding_place(boundary, follow);
+    if (follow) {
+#pragma omp parallel for schedule(dynamic, 16)
+        for (size_t near = 0; near < n; ++near)
+            contacts_follow(boundary, view, near);
         return 0;
+    }
+    for (size_t t = 0; t < s->n_work; ++t)
+        s->work[t].n_list = 0;
+    int full;
+    for (contacts_find(boundary, view, &full); full; contacts_find(boundary, view, &full)) {
+        room_grow(n, s->contact_count, s->contact_start);
+        room_grow(n, s->touch_count, s->touch_start);
+        CALL(sliding_reserve_contacts(s, n));
+    }
     for (size_t k = 0; k < boundary->n_surfaces; ++k)
         memcpy(s->wall_x[k], boundary->surfaces[k]->now.x,
                boundary->surfaces[k]->n_points * sizeof **s->wall_x);

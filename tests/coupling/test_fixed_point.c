@@ -153,8 +153,11 @@ static void test_predictors(void **state)
         char attributes[128];
         snprintf(attributes, sizeof attributes, "acceleration='added-mass' predictor='%s'", names[k]);
         outcomes[k] = run(attributes, "ratio=10");
-        print_message("%s: %.2f iterations\n", names[k], outcomes[k].mean);
-        assert_same(&outcomes[k], &outcomes[0]);
+        const double off =
+            hypot(outcomes[k].tip[0] - outcomes[0].tip[0], outcomes[k].tip[1] - outcomes[0].tip[1]);
+        print_message("%s: %.2f iterations, tip off by %g m\n", names[k], outcomes[k].mean, off);
+        /* the shares of facets are those of the predicted place */
+        assert_true(outcomes[k].status == 0 && off < 1e-6);
     }
     assert_true(outcomes[0].mean < outcomes[2].mean && outcomes[1].mean < outcomes[2].mean);
 }
