@@ -207,8 +207,11 @@ const char *series_unit(const char *name, int dim)
                  {"StrainEnergy", {NULL, NULL, "J/m^3"}},
                  {"Support", {NULL, NULL, "-"}},
                  {"Position", {NULL, NULL, "m"}}};
+    size_t length = strlen(name);
+    if (length > 2 && name[length - 2] == '_' && strchr("xyz", name[length - 1]))
+        length -= 2;
     for (size_t i = 0; i < sizeof units / sizeof units[0]; ++i)
-        if (strcmp(units[i].name, name) == 0)
+        if (strncmp(units[i].name, name, length) == 0 && units[i].name[length] == '\0')
             return units[i].units[0] ? units[i].units[dim - 1] : units[i].units[2];
     return NULL;
 }

@@ -45,8 +45,8 @@ double series_value(const struct vtu_array *array, size_t index);
 /** Place of a point, m. */
 void series_point(const struct vtu_grid *grid, size_t index, double x[3]);
 
-/** Unit of an array that skerry writes, in a problem of @p dim dimensions (2-D: per metre of depth), or
- * NULL. */
+/** Unit of an array that skerry writes, or of its component (NAME_x), in a problem of @p dim dimensions (2-D:
+ * per metre of depth), or NULL. */
 const char *series_unit(const char *name, int dim);
 
 #endif
