@@ -12,6 +12,7 @@
 #include "output/lettering.h"
 #include "output/picture.h"
 #include "output/pvd.h"
+#include "output/series.h"
 #include "output/view.h"
 #include "output/vtu.h"
 
@@ -269,6 +270,10 @@ static void test_fields(void **state)
     assert_colour(&image, left + 6, top + 0.15 * 915, colour_map(1), 6);
     assert_colour(&image, left + 909, top + 0.15 * 915, colour_map(0), 6);
     free(image.rgb);
+    assert_string_equal(series_unit("Velocity_y", 2), "m/s");
+    assert_string_equal(series_unit("ReactionForce_x", 2), "N/m");
+    assert_null(series_unit("Velocity_w", 2));
+    assert_null(series_unit("Velo", 2));
     static const char *const wrong[] = {"Presure",    "VonMises",   "",  "../Speed",
                                         "Velocity_w", "Pressure_x", "_x"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
