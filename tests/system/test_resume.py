@@ -339,7 +339,8 @@ def test_validate(skerry, folder):
     stopper = os.path.join(folder, "stopper")
     write(stopper, '#!/bin/sh\ncase $1 in run) set -- "$@" --max-wall 0 ;; esac\nexec "%s" "$@"\n' % skerry)
     os.chmod(stopper, 0o755)
-    args = argparse.Namespace(work=os.path.join(folder, "work"), skerry=stopper, fresh=False, threads=1)
+    args = argparse.Namespace(work=os.path.join(folder, "work"), skerry=stopper, fresh=False, threads=1,
+                              dx=None)
 
     def told(output):
         with open(os.path.join(output, "log.txt"), encoding="utf-8") as stream:

@@ -166,6 +166,23 @@ class Files(unittest.TestCase):
         self.assertEqual(lines[2], "F2,taylor-couette,error,0.6,,1,%,yes,0.05,3768,6400,5.2,4.6e+06,-")
         self.assertEqual(len(lines), 7)
 
+    def test_table_with_a_spacing_of_its_own(self):
+        path = self.path("validation.csv")
+        old = ["F2", "taylor-couette", "error", "old"] + ["1"] * 4 + ["0.05"] + ["1"] * 5
+        run = validate.Run("taylor-couette", "--facets", 48)
+        run.options += ["--dx", "0.1"]
+        run.dx = 0.1
+        table = validate.Table(judges=False)
+        table.add("F2", run, "error", 0.7, upper=0.5)
+        self.assertEqual(table.rows[0][4:8], ["", "", "-", "-"])
+        self.assertEqual(run.name, "taylor-couette-facets-48-dx-0.1")
+        validate.write_table(path, [old], set())
+        for _ in range(2):
+            validate.write_table(path, table.rows, set())
+        with open(path, encoding="utf-8") as stream:
+            rows = [line.split(",") for line in stream.read().split()[1:]]
+        self.assertEqual([(row[3], row[8]) for row in rows], [("old", "0.05"), ("0.7", "0.1")])
+
     def test_table_keeps_runs_of_the_papers_size(self):
         path = self.path("validation.csv")
         large, small = (["F6", "turek-hron-fsi2", "u_y", "old"] + ["1"] * 4 + [dx] + ["1"] * 5 for dx in ("0.002", "0.005"))
