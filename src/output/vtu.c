@@ -33,10 +33,11 @@ static void head_write(FILE *stream, const void *what, struct appended_item *ite
 // Number of each point from 0 and from 1, and the type of a vertex: what particles have for cells.
 static void vertex_points(const void *data, size_t first, size_t n, void *to)
 {
-    int64_t *numbers = to;
     (void)data;
-    for (size_t i = 0; i < n; ++i)
-        numbers[i] = (int64_t)(first + i);
+    for (size_t i = 0; i < n; ++i) { // blocks begin anywhere in a buffer
+        const int64_t number = (int64_t)(first + i);
+        memcpy((char *)to + i * sizeof number, &number, sizeof number);
+    }
 }
 
 static void vertex_ends(const void *data, size_t first, size_t n, void *to)
