@@ -79,7 +79,18 @@ int boundary_prepare(struct boundary *boundary, const struct fluid_view *view, b
     return boundary->type->prepare(boundary, view, again);
 }
 
-/** A circle or a sphere that turns; a plane has no end and neither has a cylinder in 3-D. */
+/** Length of a cylinder in 3-D: the period along its axis; 0 if it has none, or lies askew. */
+static double cylinder_length(const double axis[3], const struct cell_grid *grid)
+{
+    const double size = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+    for (int k = 0; k < 3; ++k)
+        if (grid->periodic[k] && fabs(axis[k]) > (1.0 - 1e-12) * size)
+            return grid->upper[k] - grid->lower[k];
+    return 0.0;
+}
+
+/** A circle or a sphere that turns, or a cylinder about its axis between periodic sides; what goes on for
+ * ever has no moment. */
 static void shape_turning_load(struct surface *surface, const struct fluid_view *view)
 {
     static const double pi = 3.14159265358979323846;
@@ -87,15 +98,16 @@ static void shape_turning_load(struct surface *surface, const struct fluid_view 
     const double r = definition->radius, side = definition->fluid_inside ? 1.0 : -1.0;
     struct motion_frame frame;
     double volume = 0.0;
-    if (definition->kind == SURFACE_CYLINDER && view->dim == 2)
-        volume = pi * r * r;
+    if (definition->kind == SURFACE_CYLINDER)
+        volume = pi * r * r * (view->dim == 2 ? 1.0 : cylinder_length(definition->axis, view->grid));
     else if (definition->kind == SURFACE_SPHERE)
         volume = 4.0 / 3.0 * pi * r * r * r;
     else
         return;
     motion_frame_at(&definition->motion, view->t, &frame);
     for (int k = 0; k < 3; ++k)
-        surface->moment[k] += side * 2.0 * view->viscosity * volume * frame.omega[k];
+        if (definition->kind == SURFACE_SPHERE || view->dim == 2 || definition->axis[k] != 0.0)
+            surface->moment[k] += side * 2.0 * view->viscosity * volume * frame.omega[k];
 }
 
 void boundary_load(struct boundary *boundary, const struct fluid_view *view)

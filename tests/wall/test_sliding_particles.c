@@ -318,16 +318,16 @@ static void test_turning(void **state)
 {
     (void)state;
     static const double centre[3] = {0.7, -1.1, 0.4}, axis[3] = {2.0 / 7.0, 3.0 / 7.0, -6.0 / 7.0};
-    for (int shape = 0; shape < 4; ++shape) {
+    for (int shape = 0; shape < 6; ++shape) {
         struct scene scene;
         double force[3], moment[3], volume;
-        scene_start(&scene, shape < 2 ? 2 : 3, -20.0, 20.0, false);
+        scene_start(&scene, shape < 2 ? 2 : 3, -20.0, 20.0, shape == 4);
         scene_add(&scene, 0.3, 5.3, 0.2);
         scene_add(&scene, -0.4, -5.4, 0.1);
         struct motion *motion = &scene.surface_definition.motion;
         motion->kind = MOTION_RIGID;
         memcpy(motion->axis, axis, sizeof axis);
-        if (shape < 2)
+        if (shape < 2 || shape >= 4)
             memcpy(motion->axis, (double[3]){0.0, 0.0, 1.0}, sizeof axis);
         motion->centre[0] = 0.3;
         motion->angular_velocity = expression_constant(-0.7);
@@ -341,6 +341,11 @@ static void test_turning(void **state)
                         (const double[4][3]){{-3.0, -5.0, 0}, {4.0, -5.0, 0}, {4.0, 5.0, 0}, {-2.0, 5.0, 0}},
                         true);
             volume = 65.0;
+        } else if (shape >= 4) { // with a period of 40 along its axis, and without
+            scene.surface_definition.kind = SURFACE_CYLINDER;
+            scene.surface_definition.radius = 5.0;
+            memcpy(scene.surface_definition.axis, (double[3]){0.0, 0.0, -2.0}, sizeof axis);
+            volume = shape == 4 ? 25.0 * PI * 40.0 : 0.0;
         } else { // the fluid is within: the normal, and with it the sign, is turned round
             box_3d(&scene, 6.0, 0.0);
             volume = -12.0 * 12.0 * 12.0;
