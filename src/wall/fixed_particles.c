@@ -613,23 +613,26 @@ static void fixed_particles_load(struct boundary *boundary, const struct fluid_v
             prescribed_load(boundary, wall);
 }
 
-/** T of wall particle @p wall: minus the derivative of its load by its acceleration a. The load is
- * sum_i (V_i^2 + V^2) W' e_i (rho p_i + rho_i p) / (rho + rho_i), e_i from it to fluid particle i, and a is
- * in p = ... - a . sum_j rho_j (r - r_j) W / sum_j W; that rho follows p is left out. */
-static void tensor_fill(const struct boundary *boundary, const struct fluid_view *view, size_t wall,
-                        double tensor[3][3])
+/** T and D of wall particle @p wall: minus the derivatives of its load by its acceleration a and velocity v.
+ * The load is sum_i (V_i^2 + V^2) W' (e_i (rho p_i + rho_i p) / (rho + rho_i) + eta (u - u_i)/r), e_i from it
+ * to fluid particle i; a is in p = ... - a . sum_j rho_j (r - r_j) W / sum_j W, and v in u = 2 v - ...; that
+ * rho follows p is left out. */
+static void contact_fill(const struct boundary *boundary, const struct fluid_view *view, size_t wall,
+                         struct added_mass_contact *contact)
 {
     const struct fixed_particles *f = boundary->data;
     const struct particles *block = view->particles;
     const double rho = f->rho[wall], volume = view->mass / rho;
     double weight = 0.0, push[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
+    contact->damping = 0.0;
     for (uint32_t c = f->back_start[wall]; c < f->back_start[wall + 1]; ++c) {
         const size_t i = boundary->near[f->back_near[c]];
         double d[3];
         const double r = sqrt(pair_vector(f, block, i, &f->pairs[f->back[c]], d)),
                      w = kernel_w(&view->kernel, r), volume_i = block->m[i] / block->rho[i];
-        const double factor = (volume_i * volume_i + volume * volume) * kernel_dw(&view->kernel, r) *
-                              block->rho[i] / ((rho + block->rho[i]) * r);
+        const double pair = (volume_i * volume_i + volume * volume) * kernel_dw(&view->kernel, r) / r,
+                     factor = pair * block->rho[i] / (rho + block->rho[i]);
+        contact->damping -= 2.0 * view->viscosity * pair;
         weight += w;
         for (int k = 0; k < 3; ++k) {
             push[k] += factor * d[k];
@@ -638,7 +641,7 @@ static void tensor_fill(const struct boundary *boundary, const struct fluid_view
     }
     for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
-            tensor[k][l] = weight > 0.0 ? push[k] * moment[l] / weight : 0.0;
+            contact->tensor[k][l] = weight > 0.0 ? push[k] * moment[l] / weight : 0.0;
 }
 
 static int fixed_particles_added_mass(struct boundary *boundary, const struct fluid_view *view)
@@ -660,8 +663,7 @@ static int fixed_particles_added_mass(struct boundary *boundary, const struct fl
         struct added_mass_contact *contact =
             &boundary->surfaces[f->material.surface[k]]->added_mass[f->tensor[k]];
         material_points_contact(&f->material, boundary, k, contact);
-        contact->damping = 0.0;
-        tensor_fill(boundary, view, f->material.particle[k], contact->tensor);
+        contact_fill(boundary, view, f->material.particle[k], contact);
     }
     return 0;
 }

@@ -147,7 +147,7 @@ static void test_light(void **state)
     }
     for (int k = 0; k < 2; ++k) {
         assert_int_equal(outcomes[k].status, 0);
-        assert_true(outcomes[k].mean < 8.0 && outcomes[k].defect < 1e-13);
+        assert_true(outcomes[k].mean < 6.5 && outcomes[k].defect < 1e-13);
     }
     assert_true(distance(&outcomes[1], &outcomes[0]) < 1e-8);
     assert_int_equal(outcomes[2].status, STATUS_NUMERICAL);

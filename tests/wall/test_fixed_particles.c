@@ -381,10 +381,11 @@ static void test_mixed(void **state)
     block_end(&b);
 }
 
-/** Loads change with the nodes' acceleration as the tensors say. */
+/** Loads change with the nodes' acceleration and velocity as the tensors and dampings say. */
 static void test_added_mass(void **state)
 {
     (void)state;
+    const double per_acceleration = 0.013; /* of the velocity */
     for (int type = 0; type < ALL_TYPES; ++type) {
         struct block_scene b;
         block_build(&b, all_types[type]);
@@ -403,11 +404,13 @@ static void test_added_mass(void **state)
                 direction[i][k] = scene_noise(&seed);
         scene_forces(s, total);
         assert_int_equal(s->boundary->type->added_mass(s->boundary, &s->view), 0);
-        surface_added_mass_apply(s->surface, (const double(*)[3])direction, 0.0, product);
+        surface_added_mass_apply(s->surface, (const double(*)[3])direction, per_acceleration, product);
         memcpy(load, s->surface->load, n * sizeof *load);
         for (size_t i = 0; i < n; ++i)
-            for (int k = 0; k < s->model.dim; ++k)
+            for (int k = 0; k < s->model.dim; ++k) {
                 s->surface->level[1].a[i][k] += direction[i][k];
+                s->surface->level[1].v[i][k] += per_acceleration * direction[i][k];
+            }
         assert_int_equal(boundary_prepare(s->boundary, &s->view, true), 0);
         scene_forces(s, total);
         double largest = 0.0, off = 0.0, energy = 0.0;
