@@ -9,7 +9,9 @@
 #include "base/memory.h"
 #include "wall/facet_shares_sweeps.h"
 
-enum { PROFILE_STEPS = 1024, LAYER_STEPS = 512, TABLE_STEPS = 96, GAUSS_HALF = 6, GRADED_PANELS = 16 };
+#include <string.h>
+
+enum { PROFILE_STEPS = 512, LAYER_STEPS = 512, TABLE_STEPS = 96, GAUSS_HALF = 6, GRADED_PANELS = 16 };
 
 #define PI 3.14159265358979323846
 /** Least distance, and least distance of the foot point from an edge line, in lattice spacings. */
@@ -86,62 +88,68 @@ static double layer_begin(const struct facet_shares *shares)
     return 0.5 * shares->dx;
 }
 
-void facet_shares_layer(const struct facet_shares *shares, double y, double moments[LAYER_MOMENTS])
+/** Cubics through values and slopes at equal steps; functions[k] has those of function k at points -2 ..
+ * steps + 2: slopes are of fourth order. */
+static void cubics_fill(struct share_cubics *cubics, int steps, const double *const functions[4])
 {
-    const double step = shares->range / LAYER_STEPS, u = (y - layer_begin(shares)) / step;
-    if (u >= LAYER_STEPS) {
-        for (int k = 0; k < LAYER_MOMENTS; ++k)
-            moments[k] = 0.0;
-        return;
-    }
-    const int i = u > 0.0 ? (int)u : 0;
-    const double x = u - i, z = 1.0 - x;
-    const double *l = shares->layer[i], *r = shares->layer[i + 1];
-    const double b0 = z * z * (1.0 + 2.0 * x), b1 = x * x * (1.0 + 2.0 * z), b2 = x * z * z * step,
-                 b3 = -x * x * z * step;
-    for (int k = 0; k < LAYER_MOMENTS; ++k)
-        moments[k] = b0 * l[2 * k] + b1 * r[2 * k] + b2 * l[2 * k + 1] + b3 * r[2 * k + 1];
+    for (int i = 0; i < steps; ++i)
+        for (int k = 0; k < 4; ++k) {
+            const double *f = functions[k] + i + 2;
+            const double from = (f[-2] - 8.0 * f[-1] + 8.0 * f[1] - f[2]) / 12.0,
+                         to = (f[-1] - 8.0 * f[0] + 8.0 * f[2] - f[3]) / 12.0;
+            cubics[i].c[0][k] = f[0];
+            cubics[i].c[1][k] = from;
+            cubics[i].c[2][k] = 3.0 * (f[1] - f[0]) - 2.0 * from - to;
+            cubics[i].c[3][k] = 2.0 * (f[0] - f[1]) + from + to;
+        }
 }
 
-static int layer_create(struct facet_shares *shares)
+/** Cubics of the functions that @p at gives at a distance, over @p steps from @p begin on. */
+static int cubics_create(struct share_cubics **cubics, const struct facet_shares *shares, int steps,
+                         double begin, void (*at)(const struct facet_shares *shares, double d, double f[4]))
 {
-    CHECK_MEMORY(shares->layer = memory_create(LAYER_STEPS + 1, sizeof *shares->layer));
-    const double step = shares->range / LAYER_STEPS;
-    for (int i = 0; i <= LAYER_STEPS; ++i) {
-        double f[5][LAYER_MOMENTS];
-        for (int k = 0; k < 5; ++k)
-            facet_shares_layer_exact(shares, layer_begin(shares) + (i + k - 2) * step, f[k]);
-        for (int l = 0; l < LAYER_MOMENTS; ++l) {
-            shares->layer[i][2 * l] = f[2][l];
-            shares->layer[i][2 * l + 1] = (f[0][l] - 8.0 * f[1][l] + 8.0 * f[3][l] - f[4][l]) / (12.0 * step);
-        }
+    const size_t n = (size_t)steps + 5;
+    CHECK_MEMORY(*cubics = memory_create((size_t)steps, sizeof **cubics));
+    double *values = memory_create(4 * n, sizeof *values);
+    CHECK_MEMORY(values);
+    for (size_t i = 0; i < n; ++i) {
+        double f[4] = {0.0, 0.0, 0.0, 0.0};
+        at(shares, begin + ((double)i - 2.0) * shares->range / steps, f);
+        for (size_t k = 0; k < 4; ++k)
+            values[k * n + i] = f[k];
     }
+    cubics_fill(*cubics, steps, (const double *const[4]){values, values + n, values + 2 * n, values + 3 * n});
+    memory_free(values);
     return 0;
 }
 
-/** S, G, V and, unless NULL, their slopes from the cubic table. */
-static void profile_at(const struct facet_shares *shares, double d, double f[SHARES], double slope[SHARES])
+void facet_shares_layer(const struct facet_shares *shares, double y, double moments[LAYER_MOMENTS])
 {
-    const double step = shares->range / PROFILE_STEPS, u = d / step;
-    if (u >= PROFILE_STEPS) {
-        for (int k = 0; k < SHARES; ++k) {
-            f[k] = 0.0;
-            if (slope)
-                slope[k] = 0.0;
-        }
+    const double u = (y - layer_begin(shares)) * (LAYER_STEPS / shares->range);
+    if (u >= LAYER_STEPS) {
+        memset(moments, 0, LAYER_MOMENTS * sizeof *moments);
         return;
     }
-    const int i = (int)u;
-    const double x = u - i, y = 1.0 - x;
-    const double *l = shares->profile[i], *r = shares->profile[i + 1];
-    const double b0 = y * y * (1.0 + 2.0 * x), b1 = x * x * (1.0 + 2.0 * y), b2 = x * y * y * step,
-                 b3 = -x * x * y * step;
-    for (int k = 0; k < SHARES; ++k)
-        f[k] = b0 * l[2 * k] + b1 * r[2 * k] + b2 * l[2 * k + 1] + b3 * r[2 * k + 1];
-    if (slope)
-        for (int k = 0; k < SHARES; ++k)
-            slope[k] = 6.0 * x * y / step * (r[2 * k] - l[2 * k]) + y * (y - 2.0 * x) * l[2 * k + 1] +
-                       x * (x - 2.0 * y) * r[2 * k + 1];
+    const int i = u > 0.0 ? (int)u : 0;
+    const double x = u - i;
+    const share_lanes *c = shares->layer[i].c;
+    for (int k = 0; k < LAYER_MOMENTS; ++k)
+        moments[k] = c[0][k] + x * (c[1][k] + x * (c[2][k] + x * c[3][k]));
+}
+
+/** S, G, V and, unless NULL, their slopes from the cubics. */
+static void profile_at(const struct facet_shares *shares, double d, double f[SHARES], double slope[SHARES])
+{
+    const double per_step = PROFILE_STEPS / shares->range, u = d * per_step;
+    const bool within = u < PROFILE_STEPS;
+    const int i = within ? (int)u : 0;
+    const double x = u - i;
+    const share_lanes *c = shares->profile[i].c;
+    for (int k = 0; k < SHARES; ++k) {
+        f[k] = within ? c[0][k] + x * (c[1][k] + x * (c[2][k] + x * c[3][k])) : 0.0;
+        if (slope)
+            slope[k] = within ? per_step * (c[1][k] + x * (2.0 * c[2][k] + 3.0 * x * c[3][k])) : 0.0;
+    }
 }
 
 /** @p exact: sum the block instead of using the table. */
@@ -264,25 +272,10 @@ int facet_shares_create(struct facet_shares *shares, struct kernel kernel, doubl
     shares->layers = (int)ceil(kernel.support / dx - 1e-6);
     shares->range = kernel.support - 0.5 * dx;
     shares->last = LAST_PART * shares->range;
-    shares->profile = memory_create(PROFILE_STEPS + 1, sizeof *shares->profile);
-    CHECK_MEMORY(shares->profile);
-    const double step = shares->range / PROFILE_STEPS;
-    double f[5][SHARES];
-    for (int k = 1; k < 5; ++k)
-        facet_shares_block(shares, (k - 3) * step, f[k]);
-    for (int i = 0; i <= PROFILE_STEPS; ++i) {
-        for (int k = 0; k < 4; ++k)
-            for (int l = 0; l < SHARES; ++l)
-                f[k][l] = f[k + 1][l];
-        facet_shares_block(shares, (i + 2) * step, f[4]);
-        for (int l = 0; l < SHARES; ++l) {
-            shares->profile[i][2 * l] = f[2][l];
-            shares->profile[i][2 * l + 1] =
-                (f[0][l] - 8.0 * f[1][l] + 8.0 * f[3][l] - f[4][l]) / (12.0 * step);
-        }
-    }
+    CALL(cubics_create(&shares->profile, shares, PROFILE_STEPS, 0.0, facet_shares_block));
     if (kernel.dim == 3)
-        CALL(layer_create(shares));
+        CALL(cubics_create(&shares->layer, shares, LAYER_STEPS, layer_begin(shares),
+                           facet_shares_layer_exact));
     if (kernel.dim == 2) {
         size_t n = (size_t)(TABLE_STEPS + 1) * (TABLE_STEPS + 1);
         shares->table = memory_create(n, sizeof *shares->table);

@@ -18,17 +18,25 @@ enum facet_share { SHARE_DENSITY, SHARE_PRESSURE, SHARE_VISCOUS, SHARES };
  * from its middle: W, W' y/r, W'/r, W' s^2/r (= W' t^2/r). */
 enum layer_moment { LAYER_W, LAYER_NORMAL, LAYER_VISCOUS, LAYER_TANGENT, LAYER_MOMENTS };
 
+/** Four functions side by side: a vector of the compiler's extension. */
+typedef double share_lanes __attribute__((vector_size(4 * sizeof(double))));
+
+/** Cubics c[0] + c[1] x + c[2] x^2 + c[3] x^3 of four functions over one step of a table, 0 <= x <= 1. */
+struct share_cubics {
+    share_lanes c[4];
+};
+
 struct facet_shares {
     struct kernel kernel;
     double dx;
-    int layers;                         /**< q = ceil(r_c / dx): layers of a block; it is 2 q - 1 wide */
-    double range;                       /**< r_c - dx/2: where S, G and V vanish */
-    double last;                        /**< largest distance at which shares are evaluated (beyond: 0/0) */
-    int profile_steps;                  /**< over the range */
-    double (*profile)[6];               /**< value and slope of S, G, V at equal steps of d */
-    double (*table)[3];                 /**< 2-D: C(a, s) without its singular part */
-    double (*layer)[2 * LAYER_MOMENTS]; /**< 3-D: value and slope of the moments at equal steps of y */
-    enum isa isa;                       /**< instruction set of polygons' integrals */
+    int layers;                   /**< q = ceil(r_c / dx): layers of a block; it is 2 q - 1 wide */
+    double range;                 /**< r_c - dx/2: where S, G and V vanish */
+    double last;                  /**< largest distance at which shares are evaluated (beyond: 0/0) */
+    int profile_steps;            /**< over the range */
+    struct share_cubics *profile; /**< S, G, V (and 0) in equal steps of d */
+    double (*table)[3];           /**< 2-D: C(a, s) without its singular part */
+    struct share_cubics *layer;   /**< 3-D: the moments in equal steps of y */
+    enum isa isa;                 /**< instruction set of polygons' integrals */
 };
 
 /** Make the tables for lattice spacing @p dx (1-D needs none but has S, G, V), for sums in the instruction

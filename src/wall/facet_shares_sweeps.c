@@ -54,37 +54,46 @@ SWEEP_INLINE void angles(const double *y, const double *x, double *angle)
     }
 }
 
-/** Gauss sum of h (f - alpha a/R - beta) / (h^2 + s^2) over an edge, added to @p sum. */
-SWEEP_INLINE void panel(const struct facet_shares *shares, const struct share_plane *plane, double h,
-                        double s0, double s1, const double *xi, const double *weights, int points,
-                        double factor[SHARES], double sum[SHARES])
+/** What the lanes S, G, V of a plane are multiplied with. */
+struct plane_lanes {
+    share_lanes factor, alpha, beta, per_R, constant;
+};
+
+SWEEP_INLINE share_lanes lanes_of(const double f[SHARES])
 {
-    const double centre = 0.5 * (s0 + s1), half = 0.5 * (s1 - s0), a = plane->a;
-    const double per_step = shares->profile_steps / shares->range, step = 1.0 / per_step;
+    const share_lanes lanes = {f[SHARE_DENSITY], f[SHARE_PRESSURE], f[SHARE_VISCOUS], 0.0};
+    return lanes;
+}
+
+/** Gauss sum of h (f - alpha a/R - beta) / (h^2 + s^2) over an edge: the points are lanes of what they have
+ * of their own, then each takes its step of the table with S, G and V as lanes. */
+SWEEP_INLINE share_lanes panel(const struct facet_shares *shares, double a, const struct plane_lanes *plane,
+                               double h, double s0, double s1, const double *xi, const double *weights,
+                               int points)
+{
+    const double centre = 0.5 * (s0 + s1), half = 0.5 * (s1 - s0);
+    const double per_step = shares->profile_steps / shares->range;
     const int last = shares->profile_steps - 1;
-    double density = 0.0, pressure = 0.0, viscous = 0.0;
-    const double *table = shares->profile[0];
-#pragma omp simd reduction(+ : density, pressure, viscous)
+    double part[LONG_POINTS], aR[LONG_POINTS], weight[LONG_POINTS];
+    int step[LONG_POINTS];
+    share_lanes sum = {0.0, 0.0, 0.0, 0.0};
+#pragma omp simd
     for (int g = 0; g < points; ++g) {
         const double s = centre + half * xi[g], t = h * h + s * s, R = sqrt(a * a + t), u = R * per_step;
         const int whole = (int)u, i = whole < last ? whole : last;
-        /* at the end of the range all are 0 */
-        const double x = u - i < 1.0 ? u - i : 1.0, y = 1.0 - x, b0 = y * y * (1.0 + 2.0 * x),
-                     b1 = x * x * (1.0 + 2.0 * y), b2 = x * y * y * step, b3 = -x * x * y * step;
-        const double *l = table + 6 * i;
-        const double f0 = b0 * l[0] + b1 * l[6] + b2 * l[1] + b3 * l[7],
-                     f1 = b0 * l[2] + b1 * l[8] + b2 * l[3] + b3 * l[9],
-                     f2 = b0 * l[4] + b1 * l[10] + b2 * l[5] + b3 * l[11];
-        const double aR = a / R, weight = weights[g] / t;
-        density += weight * (aR * (f0 * factor[SHARE_DENSITY] - plane->alpha[SHARE_DENSITY]) -
-                             plane->beta[SHARE_DENSITY]);
-        pressure += weight * (f1 * factor[SHARE_PRESSURE] - 1.0);
-        viscous += weight * (aR * (f2 * factor[SHARE_VISCOUS] - plane->alpha[SHARE_VISCOUS]) -
-                             plane->beta[SHARE_VISCOUS]);
+        step[g] = i;
+        part[g] = u - i < 1.0 ? u - i : 1.0; /* at the end of the range all are 0 */
+        aR[g] = a / R;
+        weight[g] = weights[g] / t;
     }
-    sum[SHARE_DENSITY] += h * half * density;
-    sum[SHARE_PRESSURE] += h * half * pressure;
-    sum[SHARE_VISCOUS] += h * half * viscous;
+    for (int g = 0; g < points; ++g) {
+        const share_lanes *c = shares->profile[step[g]].c;
+        const double x = part[g];
+        const share_lanes f = c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+        sum += weight[g] *
+               ((aR[g] * plane->per_R + plane->constant) * (f * plane->factor - plane->alpha) - plane->beta);
+    }
+    return h * half * sum;
 }
 
 facet_shares_edges SWEEP_NAME(facet_shares_edges);
@@ -93,11 +102,14 @@ void SWEEP_NAME(facet_shares_edges)(const struct facet_shares *shares, const str
                                     const struct share_edges *edges, double sum[SHARES])
 {
     const double a = plane->a;
-    double x[ANGLES] = {0.0}, y[ANGLES] = {0.0}, angle[ANGLES], factor[SHARES];
-    for (int k = 0; k < SHARES; ++k) {
-        sum[k] = 0.0;
-        factor[k] = 1.0 / plane->f[k];
-    }
+    double x[ANGLES] = {0.0}, y[ANGLES] = {0.0}, angle[ANGLES];
+    const struct plane_lanes lanes = {.factor =
+                                          1.0 / (lanes_of(plane->f) + (share_lanes){0.0, 0.0, 0.0, 1.0}),
+                                      .alpha = lanes_of(plane->alpha),
+                                      .beta = lanes_of(plane->beta),
+                                      .per_R = {1.0, 0.0, 1.0, 0.0},
+                                      .constant = {0.0, 1.0, 0.0, 0.0}};
+    share_lanes total = {0.0, 0.0, 0.0, 0.0};
     for (int e = 0; e < edges->n; ++e) {
         const double h = edges->h[e], s0 = edges->s0[e], s1 = edges->s1[e];
         y[e] = a * s1;
@@ -114,13 +126,12 @@ void SWEEP_NAME(facet_shares_edges)(const struct facet_shares *shares, const str
          * further than the edge is half long */
         const double beside = fmax(0.0, fabs(0.5 * (s0 + s1)) - half),
                      apart2 = a * a + h * h + beside * beside;
-        double integral[SHARES] = {0.0, 0.0, 0.0};
-        if (apart2 > half * half)
-            panel(shares, plane, h, s0, s1, short_x, short_w, SHORT_POINTS, factor, integral);
-        else
-            panel(shares, plane, h, s0, s1, long_x, long_w, LONG_POINTS, factor, integral);
-        for (int k = 0; k < SHARES; ++k)
-            sum[k] += edges->side[e] * (integral[k] + plane->alpha[k] * (angle[e] - angle[MOST_EDGES + e]) +
-                                        plane->beta[k] * angle[2 * MOST_EDGES + e]);
+        const share_lanes integral = apart2 > half * half
+                                         ? panel(shares, a, &lanes, h, s0, s1, short_x, short_w, SHORT_POINTS)
+                                         : panel(shares, a, &lanes, h, s0, s1, long_x, long_w, LONG_POINTS);
+        total += edges->side[e] * (integral + (angle[e] - angle[MOST_EDGES + e]) * lanes.alpha +
+                                   angle[2 * MOST_EDGES + e] * lanes.beta);
     }
+    for (int k = 0; k < SHARES; ++k)
+        sum[k] = total[k];
 }
