@@ -11,4 +11,7 @@ libskerry_la_SOURCES += \
 	src/wall/wall_places.c src/wall/wall_places.h
 
 # Compiled once per instruction set (top Makefile.am).
-wall_sweep_sources = src/wall/facet_shares_sweeps.c src/wall/facet_shares_sweeps.h src/sph/sweep_vector.h
+wall_sweep_sources = \
+	src/wall/contact_sums_sweeps.c src/wall/contact_sums_sweeps.h \
+	src/wall/facet_shares_sweeps.c src/wall/facet_shares_sweeps.h \
+	src/sph/sweep_vector.h

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "wall/contact_sums_sweeps.h"
 
 #include <omp.h>
 #include <string.h>
@@ -20,17 +21,6 @@
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/** Vector from @p c to particle @p j, or to its image that is nearest. */
-static void sum_vector(const struct sliding *s, const struct particles *particles, uint32_t j,
-                       const double c[3], double r[3])
-{
-    for (int k = 0; k < 3; ++k) {
-        r[k] = particles->x[k][j] - c[k];
-        if (s->period[k] > 0.0)
-            r[k] -= s->period[k] * round(r[k] / s->period[k]);
-    }
 }
 
 /** List the particles that can count in the sums at a contact while its closest point moves little. */
@@ -60,46 +50,43 @@ static int contact_list(const struct sliding *s, const struct fluid_view *view, 
     return 0;
 }
 
+#define SUMS_DECLARE(isa) contact_sums_sweep contact_sums_##isa##_double;
+SUMS_DECLARE(baseline)
+SUMS_DECLARE(v3)
+SUMS_DECLARE(v4)
+#undef SUMS_DECLARE
+
+contact_sums_sweep *contact_sums_of(enum isa isa)
+{
+    static contact_sums_sweep *const all[ISAS] = ISA_TABLE(contact_sums, double);
+    return all[isa];
+}
+
 /** Smoothed values at the contact's closest point over all particles of the moving block, particle @p i
  * always included. */
-static void contact_sums(const struct sliding *s, const struct fluid_view *view, uint32_t i,
-                         struct contact *contact)
+static void values_at(const struct sliding *s, const struct fluid_view *view, uint32_t i,
+                      struct contact *contact)
 {
-    const struct particles *particles = view->particles;
-    const double *c = contact->c, *normal = contact->normal;
-    const double rc = view->kernel.support, per_ramp = 1.0 / (FRONT_RAMP * view->spacing);
     const bool one_sided = !s->paper && contact->front;
-    const uint32_t *list = s->work[contact->lister].list + contact->listed;
-    double sum = 0.0, p = 0.0, rho = 0.0, u[3] = {0.0, 0.0, 0.0}, r[3] = {0.0, 0.0, 0.0};
-    for (uint32_t k = 0; k < contact->n_listed; ++k) {
-        const uint32_t j = list[k];
-        double d[3];
-        sum_vector(s, particles, j, c, d);
-        const double r2 = dot(d, d);
-        if (r2 >= rc * rc)
-            continue;
-        double w = kernel_w(&view->kernel, sqrt(r2));
-        if (one_sided && j != i) {
-            double height = dot(d, normal) * per_ramp;
-            if (height <= 0.0)
-                continue;
-            w *= fmin(1.0, height);
-        }
-        sum += w;
-        p += w * particles->p[j];
-        rho += w * particles->rho[j];
-        for (int l = 0; l < 3; ++l) {
-            u[l] += w * particles->u[l][j];
-            r[l] += w * d[l];
-        }
-    }
-    contact->mean_p = p / sum;
-    contact->mean_rho = rho / sum;
+    struct contact_sums_task task = {.kernel = &view->kernel,
+                                     .particles = view->particles,
+                                     .list = s->work[contact->lister].list + contact->listed,
+                                     .n = contact->n_listed,
+                                     .self = i,
+                                     .per_ramp = one_sided ? 1.0 / (FRONT_RAMP * view->spacing) : 0.0};
+    struct contact_sums sums;
+    memcpy(task.c, contact->c, sizeof task.c);
+    memcpy(task.period, s->period, sizeof task.period);
+    memcpy(task.normal, contact->normal, sizeof task.normal);
+    contact_sums_of(view->isa)(&task, &sums);
+    const double inverse = 1.0 / sums.weight;
+    contact->mean_p = sums.p * inverse;
+    contact->mean_rho = sums.rho * inverse;
     for (int k = 0; k < 3; ++k) {
-        contact->mean_u[k] = u[k] / sum;
-        contact->mean_r[k] = c[k] + r[k] / sum;
+        contact->mean_u[k] = sums.u[k] * inverse;
+        contact->mean_r[k] = contact->c[k] + sums.r[k] * inverse;
     }
-    contact->layer = -dot(r, contact->e_r) / sum;
+    contact->layer = -dot(sums.r, contact->e_r) * inverse;
     if (!s->paper)
         contact->layer = fmax(contact->layer, LEAST_LAYER * view->spacing);
 }
@@ -176,7 +163,7 @@ static void near_values(struct boundary *boundary, const struct fluid_view *view
     const size_t n = s->contact_count[near];
     for (size_t k = 0; k < n; ++k)
         if (contacts[k].source == (int32_t)k)
-            contact_sums(s, view, boundary->near[near], &contacts[k]);
+            values_at(s, view, boundary->near[near], &contacts[k]);
     for (size_t k = 0; k < n; ++k) {
         const struct contact *source = &contacts[contacts[k].source];
         contact_pressure(s, view, source, &contacts[k]);
