@@ -29,14 +29,14 @@ SWEEP_INLINE void lanes_fetch(const struct contact_sums_task *task, uint32_t fir
         lanes->rho[l] = particles->rho[j];
         lanes->always[l] = j == task->self ? 1.0 : 0.0;
     }
+    for (int k = 0; k < 3; ++k)
+        for (uint32_t l = 0; l < n && task->period[k] > 0.0; ++l)
+            lanes->d[k][l] -= task->period[k] * round(lanes->d[k][l] / task->period[k]);
     for (uint32_t l = n; l < LANES; ++l) {
         lanes->d[0][l] = 2.0 * task->kernel->support;
         lanes->d[1][l] = lanes->d[2][l] = lanes->p[l] = lanes->rho[l] = lanes->always[l] = 0.0;
         lanes->u[0][l] = lanes->u[1][l] = lanes->u[2][l] = 0.0;
     }
-    for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < LANES && task->period[k] > 0.0; ++l)
-            lanes->d[k][l] -= task->period[k] * round(lanes->d[k][l] / task->period[k]);
 }
 
 SWEEP_INLINE double lanes_dot(const double *a, const double *b)

@@ -5,6 +5,11 @@ tests_wall_test_facet_shares_LDADD = $(test_libs)
 TESTS += tests/wall/test_facet_shares
 EXTRA_DIST += tests/wall/facet_shares_2d.csv tests/wall/facet_shares_3d.csv
 
+check_PROGRAMS += tests/wall/test_contact_sums
+tests_wall_test_contact_sums_SOURCES = tests/wall/test_contact_sums.c
+tests_wall_test_contact_sums_LDADD = $(test_libs)
+TESTS += tests/wall/test_contact_sums
+
 check_PROGRAMS += tests/wall/test_sliding_corners
 tests_wall_test_sliding_corners_SOURCES = tests/wall/test_sliding_corners.c tests/wall/wall_scene.h
 tests_wall_test_sliding_corners_LDADD = $(test_libs)
