@@ -779,7 +779,7 @@ static double wall_moved(const struct boundary *boundary)
 int sliding_put_back(struct boundary *boundary, const struct fluid_view *view, struct particles *particles)
 {
     struct sliding *s = boundary->data;
-    if (view->dim < 3 || s->paper)
+    if (s->paper)
         return 0;
     for (size_t k = 0; k < boundary->n_surfaces; ++k) {
         surface_at(boundary->surfaces[k], view->t);

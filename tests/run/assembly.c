@@ -173,15 +173,20 @@ int assembly_step_balanced(struct assembly *a, double *defect)
 {
     const double dt = a->model->time.step;
     double before[3], after[3], impulse[3], mass, size, worst = 0.0;
+    const int64_t put_back = a->put_back;
     memcpy(impulse, a->coupling->wall_impulse, sizeof impulse);
     momentum_take(a, before, &mass, &size);
     CALL(assembly_steps(a, 1));
     momentum_take(a, after, &mass, &size);
+    a->put_back = 0;
+    for (size_t b = 0; b < fluid_boundary_count(a->fluid); ++b)
+        a->put_back += fluid_boundary(a->fluid, b)->put_back_count;
     for (int k = 0; k < 3; ++k) {
-        double change =
-            after[k] - before[k] - dt * mass * expression_value(a->model->time.body_force[k], NULL, a->t);
+        double change = a->owed[k] + after[k] - before[k] -
+                        dt * mass * expression_value(a->model->time.body_force[k], NULL, a->t);
         change += a->coupling->wall_impulse[k] - impulse[k];
-        worst = fmax(worst, fabs(change));
+        a->owed[k] = a->put_back > put_back ? change : 0.0;
+        worst = fmax(worst, fabs(change - a->owed[k]));
     }
     *defect = worst / size;
     return 0;

@@ -21,6 +21,8 @@ struct assembly {
     struct coupling *coupling;
     double t;
     long step;
+    int64_t put_back; /**< particles that assembly_step_balanced has seen walls put back */
+    double owed[3];   /**< momentum of the last of them that walls get in the next step, kg m/s */
 };
 
 /** Read @p deck (the text of one) with @p overrides ("NAME=VALUE", NULL at the end; NULL: none), check the
@@ -50,8 +52,9 @@ const double (*assembly_nodes(const struct assembly *assembly, const char *name)
 void assembly_jitter(struct assembly *assembly, double size);
 
 /** One step; afterwards @p defect is what the fluid's momentum changed by other than the constant body force
- * and the impulse of the walls account for, relative to the sum of what flowed through all particles. Returns
- * a status. */
+ * and the impulse of the walls account for, relative to the sum of what flowed through all particles. Of
+ * particles that are put back walls get the momentum as a force at the end of the step, half of it in this
+ * step and half in the next: the balance of such steps is that of both. Returns a status. */
 int assembly_step_balanced(struct assembly *assembly, double *defect);
 
 /** What the engine says from now on goes into a file instead of to the terminal. */

@@ -493,6 +493,40 @@ static void test_put_back(void **state)
     scene_end(&scene);
 }
 
+/** The same in 2-D: behind a side and behind a corner of a channel's step. */
+static void test_put_back_2d(void **state)
+{
+    (void)state;
+    static const double points[][3] = {
+        {30.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {2.0, -3.0, 0.0}, {-30.0, -3.0, 0.0}};
+    struct scene scene;
+    scene_start(&scene, 2, -40.0, 40.0, false);
+    scene_add(&scene, 5.3, -0.07, 0.0);
+    scene_add(&scene, 1.97, 0.4, 0.0); // in the fluid over the corner
+    scene_add(&scene, 2.02, -0.01, 0.0);
+    for (int i = 0; i < 3; ++i) {
+        scene.particles->u[0][i] = 0.45;
+        scene.particles->u[1][i] = -0.3;
+    }
+    scene_chain(&scene, 4, points, false);
+    scene_build(&scene, CORNERS_SHARES);
+    struct particles *p = scene.particles;
+    assert_int_equal(scene.boundary->type->put_back(scene.boundary, &scene.view, p), 0);
+    assert_int_equal(scene.boundary->put_back_count, 2);
+    for (size_t i = 0; i < 3; ++i) {
+        const bool side = p->x[0][i] > 5.0, free = p->x[1][i] > 0.3;
+        assert_true(fabs(p->x[0][i] - (side ? 5.3 : free ? 1.97 : 2.02)) < 1e-12);
+        assert_true(fabs(p->x[1][i] - (free ? 0.4 : 0.1)) < 1e-12);
+        assert_true(p->u[0][i] == 0.45 && p->u[1][i] == (free ? -0.3 : 0.0));
+    }
+    double force[3], moment[3];
+    surface_clear_load(scene.surface);
+    scene.boundary->type->load(scene.boundary, &scene.view);
+    surface_total_load(scene.surface, scene_zero, force, moment);
+    assert_true(fabs(force[0]) < 1e-14 && fabs(force[1] * scene.view.dt + 0.6 * scene.view.mass) < 1e-14);
+    scene_end(&scene);
+}
+
 /** A warped quad is cut into four; weights still add up and loads still balance. */
 static void test_warped(void **state)
 {
@@ -726,14 +760,15 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat_is_paper),     cmocka_unit_test(test_linear_fields),
-        cmocka_unit_test(test_conservation),      cmocka_unit_test(test_subdivision),
-        cmocka_unit_test(test_threads),           cmocka_unit_test(test_circle),
-        cmocka_unit_test(test_rotating_circle),   cmocka_unit_test(test_turning),
-        cmocka_unit_test(test_periodic_plate),    cmocka_unit_test(test_added_mass),
-        cmocka_unit_test(test_put_back),          cmocka_unit_test(test_warped),
-        cmocka_unit_test(test_layers_are_blocks), cmocka_unit_test(test_again),
-        cmocka_unit_test(test_one_dimension),     cmocka_unit_test(test_check),
+        cmocka_unit_test(test_flat_is_paper),   cmocka_unit_test(test_linear_fields),
+        cmocka_unit_test(test_conservation),    cmocka_unit_test(test_subdivision),
+        cmocka_unit_test(test_threads),         cmocka_unit_test(test_circle),
+        cmocka_unit_test(test_rotating_circle), cmocka_unit_test(test_turning),
+        cmocka_unit_test(test_periodic_plate),  cmocka_unit_test(test_added_mass),
+        cmocka_unit_test(test_put_back),        cmocka_unit_test(test_put_back_2d),
+        cmocka_unit_test(test_warped),          cmocka_unit_test(test_layers_are_blocks),
+        cmocka_unit_test(test_again),           cmocka_unit_test(test_one_dimension),
+        cmocka_unit_test(test_check),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
