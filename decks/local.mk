@@ -1,5 +1,6 @@
 nobase_dist_pkgdata_DATA += \
 	decks/balloon/README.md \
+	decks/balloon/balloon.png \
 	decks/balloon/balloon.xml \
 	decks/balloon/balloon_volume_analytic.csv \
 	decks/cylinder-2d2/README.md \
