@@ -4,6 +4,7 @@ nobase_dist_pkgdata_DATA += \
 	decks/balloon/balloon.xml \
 	decks/balloon/balloon_volume_analytic.csv \
 	decks/cylinder-2d2/README.md \
+	decks/cylinder-2d2/cylinder-2d2.png \
 	decks/cylinder-2d2/cylinder-2d2.xml \
 	decks/cylinder-2d2/schaefer_turek_bounds.csv \
 	decks/cylinder-shear-flow/README.md \
@@ -17,6 +18,7 @@ nobase_dist_pkgdata_DATA += \
 	decks/exact-pressurewave-1d/exact-pressurewave-1d.xml \
 	decks/exact-pressurewave-1d/exact_pressurewave_1d.csv \
 	decks/hydrostatic-plates/README.md \
+	decks/hydrostatic-plates/hydrostatic-plates.png \
 	decks/hydrostatic-plates/hydrostatic-plates.xml \
 	decks/hydrostatic-plates/hydrostatic_plates_analytic.csv \
 	decks/isochoric-box/README.md \
@@ -24,6 +26,7 @@ nobase_dist_pkgdata_DATA += \
 	decks/isochoric-box/isochoric-box.xml \
 	decks/isochoric-box/sliding-particles.png \
 	decks/taylor-couette/README.md \
+	decks/taylor-couette/taylor-couette.png \
 	decks/taylor-couette/taylor-couette.xml \
 	decks/taylor-couette/taylor_couette_analytic.csv \
 	decks/taylor-couette/taylor_couette_transient.csv \
