@@ -121,11 +121,14 @@ bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t 
     memcpy(c, hits[best].place, 3 * sizeof *c);
     for (int k = 0; k < 3; ++k)
         normal[k] = hits[best].at.angle * hits[best].normal[k];
+    /* a quad that is nearly plane counts as plane: edges that are one may be this far apart, and a facet
+     * beside its edge be nearer than the edge by as much */
+    const double apart = 2.0 * sliding->flat, around = apart + sqrt(2.0 * apart * hits[best].at.distance);
     for (size_t h = 0; h < n && hits[best].at.feature != PROJECTION_INTERIOR; ++h) {
-        if (h == best || hits[h].at.distance > hits[best].at.distance + sliding->snap)
+        if (h == best || hits[h].at.distance > hits[best].at.distance + apart)
             continue;
         sliding_hit_place(&hits[h]);
-        if (distance(hits[h].place, c) > 2.0 * sliding->snap)
+        if (distance(hits[h].place, c) > around)
             continue;
         for (int k = 0; k < 3; ++k)
             normal[k] += hits[h].at.angle * hits[h].normal[k];

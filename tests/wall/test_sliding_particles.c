@@ -527,6 +527,40 @@ static void test_put_back_2d(void **state)
     scene_end(&scene);
 }
 
+/** Beyond an edge, in the plane of one side of it and nearest to it: the other side, in quads that are not
+ * quite plane and so end beside the edge, tells that this is the fluid. */
+static void test_beyond_edge(void **state)
+{
+    (void)state;
+    enum { ROWS = 10 };
+    static const double height[3] = {0.0, 2.044, 4.05},
+                        bend[2][3] = {{0.0, 0.007, -0.07}, {0.0, 0.031, -0.07}};
+    double points[4 * ROWS][3];
+    int32_t nodes[3 * (ROWS - 1)][4];
+    for (int r = 0; r < ROWS; ++r) {
+        const double z = 2.0 * r - ROWS + 1.0;
+        memcpy(points[4 * r], (double[3]){-8.0, 0.0, z}, sizeof points[0]);
+        for (int k = 0; k < 3; ++k)
+            memcpy(points[4 * r + 1 + k], (double[3]){bend[r % 2][k], height[k], z}, sizeof points[0]);
+        for (int k = 0; k < 3 && r > 0; ++k)
+            memcpy(nodes[3 * (r - 1) + k],
+                   (int32_t[4]){4 * r - 4 + k, 4 * r - 3 + k, 4 * r + 1 + k, 4 * r + k}, sizeof nodes[0]);
+    }
+    for (int side = 0; side < 8; ++side) {
+        struct scene scene;
+        scene_start(&scene, 3, -20.0, 20.0, false);
+        const double y = side < 4 ? 0.002 : -0.002, z = -0.9 + 0.5 * (side % 4);
+        scene_add(&scene, 1.949, y, z);
+        scene_facets(&scene, 4 * ROWS, (const double(*)[3])points, 3 * (ROWS - 1),
+                     (const int32_t(*)[4])nodes);
+        scene_build(&scene, CORNERS_SHARES);
+        assert_true(scene.boundary->kernel_sum[0] > 0.0 && scene.boundary->kernel_sum[0] < 0.02);
+        assert_int_equal(scene.boundary->type->put_back(scene.boundary, &scene.view, scene.particles), 0);
+        assert_int_equal(scene.boundary->put_back_count, 0);
+        scene_end(&scene);
+    }
+}
+
 /** A warped quad is cut into four; weights still add up and loads still balance. */
 static void test_warped(void **state)
 {
@@ -760,15 +794,15 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat_is_paper),   cmocka_unit_test(test_linear_fields),
-        cmocka_unit_test(test_conservation),    cmocka_unit_test(test_subdivision),
-        cmocka_unit_test(test_threads),         cmocka_unit_test(test_circle),
-        cmocka_unit_test(test_rotating_circle), cmocka_unit_test(test_turning),
-        cmocka_unit_test(test_periodic_plate),  cmocka_unit_test(test_added_mass),
-        cmocka_unit_test(test_put_back),        cmocka_unit_test(test_put_back_2d),
-        cmocka_unit_test(test_warped),          cmocka_unit_test(test_layers_are_blocks),
-        cmocka_unit_test(test_again),           cmocka_unit_test(test_one_dimension),
-        cmocka_unit_test(test_check),
+        cmocka_unit_test(test_flat_is_paper),     cmocka_unit_test(test_linear_fields),
+        cmocka_unit_test(test_conservation),      cmocka_unit_test(test_subdivision),
+        cmocka_unit_test(test_threads),           cmocka_unit_test(test_circle),
+        cmocka_unit_test(test_rotating_circle),   cmocka_unit_test(test_turning),
+        cmocka_unit_test(test_periodic_plate),    cmocka_unit_test(test_added_mass),
+        cmocka_unit_test(test_put_back),          cmocka_unit_test(test_put_back_2d),
+        cmocka_unit_test(test_beyond_edge),       cmocka_unit_test(test_warped),
+        cmocka_unit_test(test_layers_are_blocks), cmocka_unit_test(test_again),
+        cmocka_unit_test(test_one_dimension),     cmocka_unit_test(test_check),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
