@@ -5,8 +5,6 @@
 
 #include "sph/sweep_vector.h"
 
-#include <string.h>
-
 enum { LANES = 16 };
 
 /** What is fetched of particles, each a lane. */

@@ -7,8 +7,6 @@
 
 #include "wall/contact_sums_sweeps.h"
 
-#include "base/memory.h"
-
 #define N 53
 
 /** -1 ... 1 */
