@@ -365,29 +365,23 @@ void facet_shares_segment_exact(const struct facet_shares *shares, double d, dou
 /** Edges of a polygon that lie off the foot point, cut to the range; returns the angle that the others leave:
  * 2 pi if the foot point is inside, and on an edge line the sum of the angles under the uncut edges, in which
  * that under its own cancels. */
-static double polygon_edges(const struct facet_shares *shares, double a, int n, const double (*corners)[2],
-                            struct share_edges *edges)
+static double polygon_edges(const struct facet_shares *shares, double a,
+                            const struct projection_edges *polygon, struct share_edges *edges)
 {
     double under[4][3];
     bool inside = true, on_line = false;
     int n_under = 0;
     edges->n = 0;
-    for (int e = 0; e < n; ++e) {
-        const double *A = corners[e], *B = corners[e + 1 < n ? e + 1 : 0];
-        double t[2] = {B[0] - A[0], B[1] - A[1]}, length = sqrt(t[0] * t[0] + t[1] * t[1]);
-        if (length <= 0.0)
+    for (int e = 0; e < polygon->n; ++e) {
+        double s0 = polygon->s0[e], s1 = polygon->s1[e], h = polygon->h[e], side = h < 0.0 ? -1.0 : 1.0;
+        if (s1 <= s0)
             continue;
-        t[0] /= length;
-        t[1] /= length;
-        double s0 = A[0] * t[0] + A[1] * t[1], s1 = B[0] * t[0] + B[1] * t[1];
-        const double *near = fabs(s0) < fabs(s1) ? A : B; // the nearer end has the smaller rounding error
-        double h = near[0] * t[1] - near[1] * t[0], side = h < 0.0 ? -1.0 : 1.0;
         inside = inside && h > 0.0;
-        if (fabs(h) < LEAST_DISTANCE * shares->dx) {
+        h = fabs(h);
+        if (h < LEAST_DISTANCE * shares->dx) {
             on_line = true;
             continue;
         }
-        h = fabs(h);
         under[n_under][0] = side;
         under[n_under][1] = h * (s1 - s0);
         under[n_under++][2] = h * h + s0 * s1;
@@ -404,7 +398,7 @@ static double polygon_edges(const struct facet_shares *shares, double a, int n, 
     return angle;
 }
 
-static void polygon(const struct facet_shares *shares, double d, int n, const double (*corners)[2],
+static void polygon(const struct facet_shares *shares, double d, const struct projection_edges *all,
                     bool exact, double share[SHARES])
 {
     const double a = fmax(fabs(d), LEAST_DISTANCE * shares->dx), sign = d < 0.0 ? -1.0 : 1.0;
@@ -415,7 +409,7 @@ static void polygon(const struct facet_shares *shares, double d, int n, const do
     struct share_edges edges;
     struct share_plane plane;
     double sum[SHARES] = {0.0, 0.0, 0.0};
-    const double whole = polygon_edges(shares, a, n, corners, &edges);
+    const double whole = polygon_edges(shares, a, all, &edges);
     if (edges.n > 0) {
         plane_at(shares, a, exact, &plane);
         if (!exact)
@@ -431,14 +425,14 @@ static void polygon(const struct facet_shares *shares, double d, int n, const do
         share[k] = sign * (whole - sum[k]) / (2.0 * PI);
 }
 
-void facet_shares_polygon(const struct facet_shares *shares, double d, int n, const double (*corners)[2],
+void facet_shares_polygon(const struct facet_shares *shares, double d, const struct projection_edges *edges,
                           double share[SHARES])
 {
-    polygon(shares, d, n, corners, false, share);
+    polygon(shares, d, edges, false, share);
 }
 
-void facet_shares_polygon_exact(const struct facet_shares *shares, double d, int n,
-                                const double (*corners)[2], double share[SHARES])
+void facet_shares_polygon_exact(const struct facet_shares *shares, double d,
+                                const struct projection_edges *edges, double share[SHARES])
 {
-    polygon(shares, d, n, corners, true, share);
+    polygon(shares, d, edges, true, share);
 }

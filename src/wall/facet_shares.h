@@ -4,6 +4,7 @@
 
 #include "sph/isa.h"
 #include "sph/kernel.h"
+#include "wall/projection.h"
 
 /** Shares of plane facets in the full block of virtual boundary particles behind their plane, measured with
  * the block's own sums. For a plane at distance d from the particle and the full block k of paper 000 eq. 30
@@ -62,16 +63,15 @@ double facet_shares_viscous(const struct facet_shares *shares, double d);
 void facet_shares_segment(const struct facet_shares *shares, double d, double s0, double s1,
                           double share[SHARES]);
 
-/** 3-D: shares of the plane polygon with @p n corners (counter-clockwise seen from the fluid, relative to the
- * foot point) at signed distance @p d, by a closed form and 8 or 16 Gauss points an edge; share times S(d)
- * good to 1e-5. */
-void facet_shares_polygon(const struct facet_shares *shares, double d, int n, const double (*corners)[2],
+/** 3-D: shares of the plane polygon with the @p edges (counter-clockwise seen from the fluid) at signed
+ * distance @p d, by a closed form and 8 or 16 Gauss points an edge; share times S(d) good to 1e-5. */
+void facet_shares_polygon(const struct facet_shares *shares, double d, const struct projection_edges *edges,
                           double share[SHARES]);
 
 /** The same by direct quadrature with summed blocks, to 1e-9: for tests. */
 void facet_shares_segment_exact(const struct facet_shares *shares, double d, double s0, double s1,
                                 double share[SHARES]);
-void facet_shares_polygon_exact(const struct facet_shares *shares, double d, int n,
-                                const double (*corners)[2], double share[SHARES]);
+void facet_shares_polygon_exact(const struct facet_shares *shares, double d,
+                                const struct projection_edges *edges, double share[SHARES]);
 
 #endif

@@ -70,6 +70,13 @@ static void cut_polygon(struct piece *piece, int n, const double (*x)[3], const 
         piece->corner[c][0] = c ? dot(r, piece->axis[0]) : 0.0;
         piece->corner[c][1] = c > 1 ? dot(r, piece->axis[1]) : 0.0;
     }
+    for (int c = 0; c < n; ++c) {
+        const double *a = piece->corner[c], *b = piece->corner[c + 1 < n ? c + 1 : 0];
+        const double t[2] = {b[0] - a[0], b[1] - a[1]}, length = sqrt(t[0] * t[0] + t[1] * t[1]);
+        piece->length[c] = length;
+        for (int k = 0; k < 2; ++k)
+            piece->tangent[c][k] = length > 0.0 ? t[k] / length : 0.0;
+    }
 }
 
 static void cut_triangle(struct piece *piece, const double (*x)[3])
@@ -121,34 +128,10 @@ int piece_cut(struct piece pieces[4], int32_t facet, int dim, int n, const doubl
     return 4;
 }
 
-/** The corner the closest point sits on: its inner angle. */
-static double corner_angle(const struct piece *piece, int c)
-{
-    const double *o = piece->corner[c], *a = piece->corner[(c + 1) % piece->n],
-                 *b = piece->corner[(c + piece->n - 1) % piece->n];
-    double u[2] = {a[0] - o[0], a[1] - o[1]}, v[2] = {b[0] - o[0], b[1] - o[1]};
-    return fabs(atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]));
-}
-
-/** Closest point of edge @p e to the foot: returns its squared distance. */
-static double edge_closest(const struct piece *piece, int e, const double foot[2], double snap,
-                           double closest[2], int *corner)
-{
-    const int f = e + 1 < piece->n ? e + 1 : 0;
-    const double *a = piece->corner[e], *b = piece->corner[f];
-    double t[2] = {b[0] - a[0], b[1] - a[1]}, length = sqrt(t[0] * t[0] + t[1] * t[1]);
-    double s = length > 0.0 ? ((foot[0] - a[0]) * t[0] + (foot[1] - a[1]) * t[1]) / length : 0.0;
-    *corner = s <= snap ? e : s >= length - snap ? f : -1;
-    for (int k = 0; k < 2; ++k)
-        closest[k] = *corner >= 0 ? piece->corner[*corner][k] : a[k] + s / length * t[k];
-    return (foot[0] - closest[0]) * (foot[0] - closest[0]) + (foot[1] - closest[1]) * (foot[1] - closest[1]);
-}
-
 static void find_segment(struct projection *p, const struct piece *piece, double snap)
 {
     double length = piece->corner[1][0], s = p->foot[0];
     p->feature = PROJECTION_NODE;
-    p->angle = 1.0;
     p->closest[1] = 0.0;
     if (s <= snap) {
         p->closest[0] = 0.0;
@@ -163,29 +146,45 @@ static void find_segment(struct projection *p, const struct piece *piece, double
 
 static void find_polygon(struct projection *p, const struct piece *piece, double snap)
 {
+    struct projection_edges *edges = &p->edges;
     bool inside = true;
-    double best = INFINITY, closest[2];
-    int best_corner = -1;
+    double best = INFINITY;
+    int best_edge = 0, best_corner = -1;
+    edges->n = piece->n;
     for (int e = 0; e < piece->n; ++e) {
-        const double *a = piece->corner[e], *b = piece->corner[e + 1 < piece->n ? e + 1 : 0];
-        inside = inside && (b[0] - a[0]) * (p->foot[1] - a[1]) - (b[1] - a[1]) * (p->foot[0] - a[0]) >= 0.0;
-        int corner;
-        double r2 = edge_closest(piece, e, p->foot, snap, closest, &corner);
+        const int f = e + 1 < piece->n ? e + 1 : 0;
+        const double *a = piece->corner[e], *b = piece->corner[f], *t = piece->tangent[e],
+                     length = piece->length[e];
+        const double from_a[2] = {p->foot[0] - a[0], p->foot[1] - a[1]},
+                     from_b[2] = {p->foot[0] - b[0], p->foot[1] - b[1]};
+        const double s = from_a[0] * t[0] + from_a[1] * t[1];
+        const bool second = s > 0.5 * length;
+        const double *from = second ? from_b : from_a; /* the nearer end has the smaller rounding error */
+        const double h = t[0] * from[1] - t[1] * from[0];
+        edges->h[e] = h;
+        edges->s0[e] = -s;
+        edges->s1[e] = second ? -(from_b[0] * t[0] + from_b[1] * t[1]) : length - s;
+        inside = inside && h >= 0.0;
+        const int corner = s <= snap ? e : s >= length - snap ? f : -1;
+        const double *to = corner == f ? from_b : from_a;
+        const double r2 = corner >= 0 ? to[0] * to[0] + to[1] * to[1] : h * h;
         if (r2 < best || (r2 == best && corner >= 0)) {
             best = r2;
+            best_edge = e;
             best_corner = corner;
-            memcpy(p->closest, closest, sizeof closest);
         }
     }
     if (inside && best > snap * snap) {
         memcpy(p->closest, p->foot, sizeof p->closest);
         p->feature = PROJECTION_INTERIOR;
-        p->angle = 2.0 * PI;
         p->distance = fabs(p->d);
         return;
     }
     p->feature = best_corner >= 0 ? PROJECTION_NODE : PROJECTION_EDGE;
-    p->angle = best_corner >= 0 ? corner_angle(piece, best_corner) : PI;
+    p->at = best_corner >= 0 ? best_corner : best_edge;
+    for (int k = 0; k < 2; ++k)
+        p->closest[k] = piece->corner[p->at][k] -
+                        (best_corner >= 0 ? 0.0 : edges->s0[best_edge] * piece->tangent[best_edge][k]);
     p->distance = sqrt(p->d * p->d + best);
 }
 
@@ -200,6 +199,17 @@ void projection_find(struct projection *projection, const struct piece *piece, c
         find_polygon(projection, piece, snap);
     else
         find_segment(projection, piece, snap);
+}
+
+double projection_angle(const struct projection *projection, const struct piece *piece)
+{
+    if (piece->n < 3)
+        return 1.0;
+    if (projection->feature != PROJECTION_NODE)
+        return projection->feature == PROJECTION_EDGE ? PI : 2.0 * PI;
+    const int c = projection->at;
+    const double *u = piece->tangent[c], *back = piece->tangent[c > 0 ? c - 1 : piece->n - 1];
+    return fabs(atan2(u[1] * back[0] - u[0] * back[1], -u[0] * back[0] - u[1] * back[1]));
 }
 
 void piece_place(const struct piece *piece, const double local[2], double x[3])

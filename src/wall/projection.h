@@ -19,6 +19,15 @@ struct piece {
     double axis[2][3]; /**< in the plane; 2-D: [0] = tangent */
     double corner[4]
                  [2]; /**< in these axes, counter-clockwise seen from the fluid; 2-D: (0, 0), (length, 0) */
+    double tangent[4][2], length[4]; /**< 3-D: of the edge from each corner to the next, in these axes */
+};
+
+/** Edges of a plane polygon, in order, as seen from the foot point of a place: the distance of each edge's
+ * line (> 0: the foot point is on its inner side), and where the edge begins and ends on it, measured from
+ * the place closest to the foot point. One that has no length has s0 = s1. */
+struct projection_edges {
+    int n;
+    double h[4], s0[4], s1[4];
 };
 
 /** The closest point of a piece to a place. */
@@ -28,7 +37,8 @@ struct projection {
     double closest[2]; /**< closest point of the piece, in the same */
     double distance;   /**< from the place to the closest point */
     enum projection_feature feature;
-    double angle; /**< of the piece about the closest point, rad: weight of its normal there */
+    int at;                        /**< the corner or edge on which the closest point lies (3-D) */
+    struct projection_edges edges; /**< 3-D */
 };
 
 /** Cut the facet with corner places @p x (rows) into 1 or 4 pieces; a quad is cut where its corners lie
@@ -46,6 +56,9 @@ static inline double piece_plane_distance(const struct piece *piece, const doubl
 /** Closest point of @p piece to @p x; points closer than @p snap to a corner or edge are on it. */
 void projection_find(struct projection *projection, const struct piece *piece, const double x[3],
                      double snap);
+
+/** Angle of the piece about the closest point, rad (2-D: 1): weight of its normal there. */
+double projection_angle(const struct projection *projection, const struct piece *piece);
 
 /** Place of the in-plane coordinates @p local. */
 void piece_place(const struct piece *piece, const double local[2], double x[3]);

@@ -39,7 +39,6 @@ static void shape_hit(const struct surface *surface, const struct sliding_shape 
     double r[3] = {x[0] - shape->centre[0], x[1] - shape->centre[1], x[2] - shape->centre[2]};
     double along = dot(r, shape->axis), side = definition->fluid_inside ? -1.0 : 1.0;
     hit->at.feature = PROJECTION_INTERIOR;
-    hit->at.angle = 1.0;
     if (definition->kind == SURFACE_PLANE) {
         hit->at.d = along;
         for (int k = 0; k < 3; ++k) {
@@ -107,6 +106,12 @@ void sliding_hit_place(struct hit *hit)
     }
 }
 
+/** Weight of the normal of a hit where several meet. */
+static double hit_angle(const struct hit *hit)
+{
+    return hit->piece ? projection_angle(&hit->at, hit->piece) : 1.0;
+}
+
 bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t n, const double x[3],
                         double c[3], double normal[3], size_t *nearest)
 {
@@ -120,7 +125,7 @@ bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t 
     sliding_hit_place(&hits[best]);
     memcpy(c, hits[best].place, 3 * sizeof *c);
     for (int k = 0; k < 3; ++k)
-        normal[k] = hits[best].at.angle * hits[best].normal[k];
+        normal[k] = hit_angle(&hits[best]) * hits[best].normal[k];
     /* a quad that is nearly plane counts as plane: edges that are one may be this far apart, and a facet
      * beside its edge be nearer than the edge by as much */
     const double apart = 2.0 * sliding->flat, around = apart + sqrt(2.0 * apart * hits[best].at.distance);
@@ -131,7 +136,7 @@ bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t 
         if (distance(hits[h].place, c) > around)
             continue;
         for (int k = 0; k < 3; ++k)
-            normal[k] += hits[h].at.angle * hits[h].normal[k];
+            normal[k] += hit_angle(&hits[h]) * hits[h].normal[k];
     }
     double length = sqrt(dot(normal, normal)), side = 0.0;
     for (int k = 0; k < 3; ++k) {
@@ -256,12 +261,7 @@ static void hit_shares(const struct sliding *s, const struct hit *hit, double sh
         facet_shares_segment(&s->shares, hit->at.d, -foot[0], piece->corner[1][0] - foot[0], share);
         return;
     }
-    double corners[4][2];
-    for (int c = 0; c < piece->n; ++c) {
-        corners[c][0] = piece->corner[c][0] - foot[0];
-        corners[c][1] = piece->corner[c][1] - foot[1];
-    }
-    facet_shares_polygon(&s->shares, hit->at.d, piece->n, (const double(*)[2])corners, share);
+    facet_shares_polygon(&s->shares, hit->at.d, &hit->at.edges, share);
 }
 
 static void whole_block(struct touch *touch)

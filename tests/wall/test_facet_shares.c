@@ -84,10 +84,26 @@ static void test_table_2d(void **state)
     }
 }
 
+/** Edges of a polygon with these corners, relative to the foot point. */
+static const struct projection_edges *edges_of(struct projection_edges *edges, int n,
+                                               const double (*corners)[2])
+{
+    edges->n = n;
+    for (int e = 0; e < n; ++e) {
+        const double *a = corners[e], *b = corners[(e + 1) % n];
+        const double x = b[0] - a[0], y = b[1] - a[1], length = hypot(x, y);
+        edges->h[e] = (a[0] * y - a[1] * x) / length;
+        edges->s0[e] = (a[0] * x + a[1] * y) / length;
+        edges->s1[e] = (b[0] * x + b[1] * y) / length;
+    }
+    return edges;
+}
+
 static void test_reference_3d(void **state)
 {
     (void)state;
     struct facet_shares shares;
+    struct projection_edges edges;
     assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0, isa_best()), 0);
     FILE *file = open_data("facet_shares_3d.csv");
     char line[1024];
@@ -105,10 +121,10 @@ static void test_reference_3d(void **state)
         facet_shares_block(&shares, a, value);
         for (int k = 0; k < SHARES; ++k)
             assert_close(value[k], f[k], 1e-11);
-        facet_shares_polygon_exact(&shares, a, 4, square, value);
+        facet_shares_polygon_exact(&shares, a, edges_of(&edges, 4, square), value);
         for (int k = 0; k < SHARES; ++k)
             assert_close(value[k], expected[k], 1e-8);
-        facet_shares_polygon(&shares, a, 4, square, value);
+        facet_shares_polygon(&shares, a, edges_of(&edges, 4, square), value);
         for (int k = 0; k < SHARES; ++k)
             assert_close(value[k] * f[k], expected[k] * f[k], 1e-4);
     }
@@ -123,6 +139,7 @@ static void test_instruction_sets(void **state)
     (void)state;
     static const char *const names[] = {"baseline", "v3", "v4"};
     struct facet_shares shares;
+    struct projection_edges edges;
     double largest = 0.0;
     assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0, ISA_BASELINE), 0);
     for (int k = 0; k < 400; ++k) {
@@ -132,7 +149,7 @@ static void test_instruction_sets(void **state)
         double value[ISAS][SHARES];
         for (int isa = 0; isa < ISAS; ++isa) {
             shares.isa = isa_available(names[isa]) ? isa : ISA_BASELINE;
-            facet_shares_polygon(&shares, 0.07 + 0.005 * k, 4, quad, value[isa]);
+            facet_shares_polygon(&shares, 0.07 + 0.005 * k, edges_of(&edges, 4, quad), value[isa]);
             for (int f = 0; f < SHARES; ++f) {
                 assert_close(value[isa][f], value[0][f], 1e-13);
                 largest = fmax(largest, value[isa][f]);
@@ -148,6 +165,7 @@ static void test_additive_3d(void **state)
 {
     (void)state;
     struct facet_shares shares;
+    struct projection_edges edges;
     assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0, isa_best()), 0);
     static const double foot[][2] = {{0.31, 0.17}, {0.0, 0.0}, {0.5, 0.0},
                                      {-0.4, 0.7},  {0.4, 0.4}, {2.0, 1.7}};
@@ -159,10 +177,10 @@ static void test_additive_3d(void **state)
             const double upper[3][2] = {{-x, -y}, {2.0 - x, 1.7 - y}, {-x, 1.7 - y}};
             double whole[SHARES], a[SHARES], b[SHARES], exact[SHARES], f[SHARES];
             facet_shares_block(&shares, fabs(d), f);
-            facet_shares_polygon(&shares, d, 4, quad, whole);
-            facet_shares_polygon(&shares, d, 3, lower, a);
-            facet_shares_polygon(&shares, d, 3, upper, b);
-            facet_shares_polygon_exact(&shares, d, 4, quad, exact);
+            facet_shares_polygon(&shares, d, edges_of(&edges, 4, quad), whole);
+            facet_shares_polygon(&shares, d, edges_of(&edges, 3, lower), a);
+            facet_shares_polygon(&shares, d, edges_of(&edges, 3, upper), b);
+            facet_shares_polygon_exact(&shares, d, edges_of(&edges, 4, quad), exact);
             for (int k = 0; k < SHARES; ++k) {
                 assert_close(a[k] + b[k], whole[k], 1e-12);
                 assert_close(whole[k] * f[k], exact[k] * f[k], 1e-4);
