@@ -6,6 +6,9 @@
 
 enum { NEWTON_STEPS = 20 };
 
+/** After a correction below this the next one would be rounding: they square. */
+#define NEWTON_LAST 1e-8
+
 #define PI 3.14159265358979323846
 
 static double dot(const double a[3], const double b[3])
@@ -239,24 +242,29 @@ static void bilinear(double xi, double eta, double weights[4])
 /** Natural coordinates of a point in a plane quad by Newton's method from the centre. */
 static void quad_weights(const struct piece *piece, const double local[2], double weights[4])
 {
-    double xi = 0.0, eta = 0.0;
+    double xi = 0.0, eta = 0.0, centre[2], along_xi[2], along_eta[2], twist[2];
+    for (int k = 0; k < 2; ++k) { /* place = centre + xi along_xi + eta along_eta + xi eta twist */
+        const double c0 = piece->corner[0][k], c1 = piece->corner[1][k], c2 = piece->corner[2][k],
+                     c3 = piece->corner[3][k];
+        centre[k] = 0.25 * (c0 + c1 + c2 + c3);
+        along_xi[k] = 0.25 * (c1 - c0 + c2 - c3);
+        along_eta[k] = 0.25 * (c3 - c0 + c2 - c1);
+        twist[k] = 0.25 * (c0 - c1 + c2 - c3);
+    }
     for (int step = 0; step < NEWTON_STEPS; ++step) {
-        bilinear(xi, eta, weights);
         double r[2], j[2][2];
         for (int k = 0; k < 2; ++k) {
-            const double c0 = piece->corner[0][k], c1 = piece->corner[1][k], c2 = piece->corner[2][k],
-                         c3 = piece->corner[3][k];
-            r[k] = local[k] - weights[0] * c0 - weights[1] * c1 - weights[2] * c2 - weights[3] * c3;
-            j[k][0] = 0.25 * ((1.0 - eta) * (c1 - c0) + (1.0 + eta) * (c2 - c3));
-            j[k][1] = 0.25 * ((1.0 - xi) * (c3 - c0) + (1.0 + xi) * (c2 - c1));
+            r[k] = local[k] - centre[k] - xi * along_xi[k] - eta * (along_eta[k] + xi * twist[k]);
+            j[k][0] = along_xi[k] + eta * twist[k];
+            j[k][1] = along_eta[k] + xi * twist[k];
         }
-        double det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+        const double det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
         if (det == 0.0)
             break;
-        double a = (r[0] * j[1][1] - r[1] * j[0][1]) / det, b = (j[0][0] * r[1] - j[1][0] * r[0]) / det;
+        const double a = (r[0] * j[1][1] - r[1] * j[0][1]) / det, b = (j[0][0] * r[1] - j[1][0] * r[0]) / det;
         xi = fmax(-1.0, fmin(1.0, xi + a));
         eta = fmax(-1.0, fmin(1.0, eta + b));
-        if (fabs(a) + fabs(b) < 1e-14)
+        if (fabs(a) + fabs(b) < NEWTON_LAST)
             break;
     }
     bilinear(xi, eta, weights);

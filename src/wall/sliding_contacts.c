@@ -168,26 +168,20 @@ static void contact_motion(const struct boundary *boundary, size_t near, struct 
 {
     const struct sliding *s = boundary->data;
     const struct surface *surface = boundary->surfaces[contact->surface];
-    const size_t first = s->touch_start[near] + contact->first;
     double u[3] = {0.0, 0.0, 0.0}, a[3] = {0.0, 0.0, 0.0};
-    if (!s->touches[first].piece) {
+    if (!s->touches[s->touch_start[near] + contact->first].piece) {
         double at[3];
         for (int k = 0; k < 3; ++k)
             at[k] = contact->c[k] - contact->shift[k];
         motion_frame_place(&s->shapes[contact->surface].frame, at, contact->u, contact->a);
         return;
     }
-    for (size_t t = first; t < first + contact->n_touches; ++t) {
-        const int32_t *points = &s->anchor[t * s->anchors];
-        const double *weights = &s->anchor_weight[t * s->anchors];
-        for (size_t j = 0; j < s->anchors && points[j] >= 0; ++j) {
-            const double w = s->touches[t].part * weights[j];
-            for (int k = 0; k < 3; ++k) {
-                u[k] += w * surface->now.v[points[j]][k];
-                a[k] += w * surface->now.a[points[j]][k];
-            }
+    const struct anchor *rows = sliding_rows(s, near, contact);
+    for (uint32_t r = 0; r < contact->n_rows; ++r)
+        for (int k = 0; k < 3; ++k) {
+            u[k] += rows[r].weight * surface->now.v[rows[r].point][k];
+            a[k] += rows[r].weight * surface->now.a[rows[r].point][k];
         }
-    }
     memcpy(contact->u, u, sizeof u);
     memcpy(contact->a, a, sizeof a);
 }
@@ -281,10 +275,9 @@ static size_t add_facet(const struct boundary *boundary, struct hit *hit, const 
     if (share[SHARE_DENSITY] == 0.0 && share[SHARE_PRESSURE] == 0.0 && share[SHARE_VISCOUS] == 0.0)
         return n;
     sliding_hit_place(hit);
-    size_t g = 0;
-    while (g < n &&
-           !(joins(boundary, hit) && joins(boundary, owner[g]) && owner[g]->surface == hit->surface &&
-             coplanar(s, owner[g]->normal, owner[g]->at.d, hit->normal, hit->at.d)))
+    size_t g = joins(boundary, hit) ? 0 : n;
+    while (g < n && !(joins(boundary, owner[g]) && owner[g]->surface == hit->surface &&
+                      coplanar(s, owner[g]->normal, owner[g]->at.d, hit->normal, hit->at.d)))
         ++g;
     if (g == n || hit->at.distance < owner[g]->at.distance) {
         contact_at_plane(&work->contacts[g], hit, x);
@@ -301,17 +294,24 @@ static void share_sums(struct sliding_work *work, size_t n)
 {
     struct contact *contacts = work->contacts;
     const struct touch *touches = work->touches;
+    uint32_t *order = work->order; /* front contacts, the strongest first */
+    size_t n_front = 0;
     for (size_t k = 0; k < n; ++k) {
         if (!contacts[k].front)
             continue;
-        size_t best = k;
-        for (size_t l = 0; l < n; ++l) {
-            const double w = touches[l].weight[SHARE_PRESSURE], most = touches[best].weight[SHARE_PRESSURE];
-            if (contacts[l].front && (w > most || (w == most && l < best)) &&
-                dot(contacts[l].normal, contacts[k].normal) > SHARED_COSINE)
-                best = l;
-        }
-        contacts[k].source = (int32_t)best;
+        size_t place = n_front++;
+        for (; place > 0 &&
+               touches[k].weight[SHARE_PRESSURE] > touches[order[place - 1]].weight[SHARE_PRESSURE];
+             --place)
+            order[place] = order[place - 1];
+        order[place] = (uint32_t)k;
+    }
+    for (size_t p = 0; p < n_front; ++p) {
+        const uint32_t k = order[p];
+        size_t best = 0;
+        while (order[best] != k && !(dot(contacts[order[best]].normal, contacts[k].normal) > SHARED_COSINE))
+            ++best;
+        contacts[k].source = (int32_t)order[best];
     }
     for (size_t k = 0; k < n; ++k) /* ascends to stronger ones only */
         while (contacts[contacts[k].source].source != contacts[k].source)
@@ -523,15 +523,16 @@ static double block_kernel_sum(const struct sliding *s, double d)
     return sum;
 }
 
-static void layer_sum(const struct sliding *s, const struct contact *contact, const struct touch *touches,
-                      double height, struct layer_sums *sums)
+/** Add what stands behind one touch to the layers of its contact. */
+static void layers_add(const struct sliding *s, const struct touch *touch, const double e_r[3],
+                       struct layer_sums *layers)
 {
-    *sums = (struct layer_sums){0};
-    for (uint32_t t = 0; t < contact->n_touches; ++t) {
-        const double y = touches[t].d + height, *weight = touches[t].weight;
-        double moments[LAYER_MOMENTS], e_r[3];
+    const double *weight = touch->weight;
+    for (int m = 0; m < s->shares.layers; ++m) {
+        struct layer_sums *sums = &layers[m];
+        const double y = touch->d + (m + 0.5) * s->shares.dx;
+        double moments[LAYER_MOMENTS];
         facet_shares_layer(&s->shares, y, moments);
-        sliding_touch_direction(contact, touches, t, e_r);
         const double strength = weight[SHARE_PRESSURE] * moments[LAYER_NORMAL];
         for (int k = 0; k < 3; ++k) {
             sums->normal[k] += strength * e_r[k];
@@ -549,8 +550,12 @@ static void contact_layers(const struct sliding *s, size_t near, const struct co
 {
     const struct touch *touches = &s->touches[s->touch_start[near] + contact->first];
     struct layer_sums *layers = &s->layers[(size_t)(contact - s->contacts) * (size_t)s->shares.layers];
-    for (int m = 0; m < s->shares.layers; ++m)
-        layer_sum(s, contact, touches, (m + 0.5) * s->shares.dx, &layers[m]);
+    memset(layers, 0, (size_t)s->shares.layers * sizeof *layers);
+    for (uint32_t t = 0; t < contact->n_touches; ++t) {
+        double e_r[3];
+        sliding_touch_direction(contact, touches, t, e_r);
+        layers_add(s, &touches[t], e_r, layers);
+    }
 }
 
 /** Sum over the wall of share and kernel, of one near particle. */
@@ -615,6 +620,32 @@ static void contacts_follow(struct boundary *boundary, const struct fluid_view *
     boundary->kernel_sum[near] = near_kernel_sum(s, near);
 }
 
+/** Points that move with a contact and take its load: those of all touches, each once. */
+static void contact_rows(const struct boundary *boundary, size_t near, const struct sliding_work *work,
+                         struct contact *contact)
+{
+    struct anchor *rows = sliding_rows(boundary->data, near, contact);
+    const struct hit *before = NULL;
+    uint32_t n = 0, row[SIDE_MAX_NODES];
+    for (uint32_t t = contact->first; t < contact->first + contact->n_touches; ++t) {
+        const struct hit *hit = work->owners[work->order[t]];
+        int32_t points[SIDE_MAX_NODES];
+        double weights[SIDE_MAX_NODES];
+        const int n_points = sliding_anchors(boundary, hit, points, weights);
+        const bool same = before && hit->facet >= 0 && hit->facet == before->facet &&
+                          hit->surface == before->surface; /* a quad's quarters */
+        for (int j = 0; j < n_points; ++j) {
+            for (row[j] = same ? row[j] : 0; row[j] < n && rows[row[j]].point != points[j];)
+                ++row[j];
+            if (row[j] == n)
+                rows[n++] = (struct anchor){0.0, points[j]};
+            rows[row[j]].weight += work->touches[work->order[t]].part * weights[j];
+        }
+        before = hit;
+    }
+    contact->n_rows = n;
+}
+
 /** Contacts of one near particle into its slots; the counts say how many there are, they are stored only if
  * they fit. */
 static void particle_contacts(struct boundary *boundary, const struct fluid_view *view, size_t near,
@@ -634,16 +665,11 @@ static void particle_contacts(struct boundary *boundary, const struct fluid_view
         return;
     struct contact *contacts = &s->contacts[s->contact_start[near]];
     memcpy(contacts, work->contacts, n_contacts * sizeof *contacts);
-    for (size_t t = 0; t < n; ++t) {
-        int32_t points[SIDE_MAX_NODES];
-        double weights[SIDE_MAX_NODES];
+    for (size_t t = 0; t < n; ++t)
         s->touches[first + t] = work->touches[work->order[t]];
-        sliding_anchors(boundary, work->owners[work->order[t]], points, weights);
-        memcpy(&s->anchor[(first + t) * s->anchors], points, s->anchors * sizeof *points);
-        memcpy(&s->anchor_weight[(first + t) * s->anchors], weights, s->anchors * sizeof *weights);
-    }
     for (size_t k = 0; k < n_contacts; ++k) {
         contacts[k].n_listed = 0;
+        contact_rows(boundary, near, work, &contacts[k]);
         contact_motion(boundary, near, &contacts[k]);
         if (s->layered)
             contact_layers(s, near, &contacts[k]);
@@ -673,9 +699,7 @@ int sliding_reserve_contacts(struct sliding *s, size_t n)
         CALL(memory_grow((void **)&s->layers, &s->layers_capacity,
                          s->contact_start[n] * (size_t)s->shares.layers, sizeof *s->layers));
     CALL(memory_grow((void **)&s->touches, &s->touches_capacity, touches, sizeof *s->touches));
-    CALL(memory_grow((void **)&s->anchor, &s->anchor_capacity, touches * s->anchors, sizeof *s->anchor));
-    return memory_grow((void **)&s->anchor_weight, &s->anchor_weight_capacity, touches * s->anchors,
-                       sizeof *s->anchor_weight);
+    return memory_grow((void **)&s->rows, &s->rows_capacity, touches * s->anchors, sizeof *s->rows);
 }
 
 /** Contacts of all near particles; *@p full: some have more than there is room for. */

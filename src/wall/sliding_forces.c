@@ -399,14 +399,10 @@ void sliding_react(struct boundary *boundary, size_t near, const struct wall_nei
 static void contact_load(const struct sliding *s, size_t near, struct surface *surface,
                          const struct contact *contact)
 {
-    const size_t first = s->touch_start[near] + contact->first;
-    for (size_t t = first; t < first + contact->n_touches; ++t) {
-        const int32_t *points = &s->anchor[t * s->anchors];
-        const double *weights = &s->anchor_weight[t * s->anchors];
-        for (size_t j = 0; j < s->anchors && points[j] >= 0; ++j)
-            for (int k = 0; k < 3; ++k)
-                surface->load[points[j]][k] += s->touches[t].part * weights[j] * contact->force[k];
-    }
+    const struct anchor *rows = sliding_rows(s, near, contact);
+    for (uint32_t r = 0; r < contact->n_rows; ++r)
+        for (int k = 0; k < 3; ++k)
+            surface->load[rows[r].point][k] += rows[r].weight * contact->force[k];
     if (surface->definition->kind == SURFACE_FACETS)
         return;
     double arm[3];
@@ -505,31 +501,12 @@ static int reserve_tensors(struct boundary *boundary)
             for (size_t c = s->contact_start[near]; c < s->contact_start[near] + s->contact_count[near]; ++c)
                 if (s->contacts[c].surface == (int32_t)k) {
                     surface->added_mass[s->contacts[c].tensor].row = anchors;
-                    anchors += s->contacts[c].n_touches * s->anchors;
+                    anchors += s->contacts[c].n_rows;
                 }
         CALL(memory_grow((void **)&surface->anchors, &surface->anchors_capacity, anchors,
                          sizeof *surface->anchors));
     }
     return 0;
-}
-
-/** Points that take the load of a contact: those of all touches, each once. */
-static void contact_rows(const struct sliding *s, size_t near, const struct contact *contact,
-                         struct anchor *anchors, struct added_mass_contact *out)
-{
-    struct anchor *rows = anchors + out->row;
-    const size_t first = s->touch_start[near] + contact->first;
-    uint32_t n = 0;
-    for (size_t t = first; t < first + contact->n_touches; ++t)
-        for (size_t j = t * s->anchors; j < (t + 1) * s->anchors && s->anchor[j] >= 0; ++j) {
-            uint32_t row = 0;
-            while (row < n && rows[row].point != s->anchor[j])
-                ++row;
-            if (row == n)
-                rows[n++] = (struct anchor){0.0, s->anchor[j]};
-            rows[row].weight += s->touches[t].part * s->anchor_weight[j];
-        }
-    out->n_rows = n;
 }
 
 /** Rows, then tensors of the contacts of a near particle. */
@@ -542,8 +519,12 @@ static int near_tensors(const struct boundary *boundary, const struct fluid_view
     CALL(wall_neighbours_reserve(block, s->block));
     for (size_t k = 0; k < s->contact_count[near]; ++k) {
         const struct surface *surface = boundary->surfaces[contacts[k].surface];
-        if (contacts[k].tensor != SIZE_MAX)
-            contact_rows(s, near, &contacts[k], surface->anchors, &surface->added_mass[contacts[k].tensor]);
+        if (contacts[k].tensor == SIZE_MAX)
+            continue;
+        struct added_mass_contact *out = &surface->added_mass[contacts[k].tensor];
+        out->n_rows = contacts[k].n_rows;
+        memcpy(&surface->anchors[out->row], sliding_rows(s, near, &contacts[k]),
+               out->n_rows * sizeof *surface->anchors);
     }
     for (size_t k = 0; k < s->contact_count[near]; ++k) {
         const struct contact *contact = &contacts[k], *source = &contacts[contact->source];

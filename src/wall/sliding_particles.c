@@ -213,12 +213,11 @@ static void sliding_destroy(struct boundary *boundary)
         wall_neighbours_reset(&s->work[k].neighbours);
     }
     void *const arrays[] = {
-        s->facets,        s->pieces,        s->shapes,        s->candidates,    s->candidate_start,
-        s->pairs,         s->stamp,         s->pair_particle, s->mask,          s->count,
-        s->contacts,      s->contact_start, s->contact_count, s->touches,       s->layers,
-        s->touch_start,   s->touch_count,   s->anchor,        s->anchor_weight, s->clear,
-        s->clear_x,       s->wall_x,        s->put,           s->work,          s->pending,
-        s->pending_moment};
+        s->facets,      s->pieces,        s->shapes,        s->candidates, s->candidate_start,
+        s->pairs,       s->stamp,         s->pair_particle, s->mask,       s->count,
+        s->contacts,    s->contact_start, s->contact_count, s->touches,    s->layers,
+        s->touch_start, s->touch_count,   s->rows,          s->clear,      s->clear_x,
+        s->wall_x,      s->put,           s->work,          s->pending,    s->pending_moment};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
         memory_free(arrays[k]);
     memory_free(s);

@@ -10,8 +10,7 @@
  * sliding_contacts.c: contact points; sliding_forces.c: values of the virtual particles, packed neighbours,
  * loads). */
 
-/** What one facet, or an analytic surface, adds to a contact. Its points and their weights (shape functions
- * at the closest point) stand in the lists of the treatment, anchors of them. */
+/** What one facet, or an analytic surface, adds to a contact. */
 struct touch {
     const struct piece *piece; /**< NULL: analytic */
     double at[2];              /**< closest point in the axes of the piece */
@@ -48,6 +47,7 @@ struct contact {
     double p0, gradient[3];                        /**< p_k = p0 + gradient . (r_k - o) */
     double force[3];                               /**< on the wall, N */
     uint32_t first, n_touches;                     /**< among the touches of the near particle */
+    uint32_t n_rows; /**< points that move with it and take its load (sliding_rows) */
     int32_t surface;
     int32_t source; /**< contact of the same particle whose sums are used: itself, or another one's source */
     size_t tensor;  /**< where its added mass stands in the surface's list, or SIZE_MAX */
@@ -128,10 +128,9 @@ struct sliding {
     struct layer_sums *layers; /**< of contact k (of all): shares.layers of them from there on, if layered */
     size_t layers_capacity;
     bool layered;   /**< layers stand for blocks in the sweeps: in 3-D, except where walls are as published */
-    size_t anchors; /**< points of a touch: number j of touch t stands at anchors * t + j, -1 unused */
-    int32_t *anchor;
-    double *anchor_weight;
-    size_t anchor_capacity, anchor_weight_capacity;
+    size_t anchors; /**< most points of a touch */
+    struct anchor *rows; /**< points of contacts and their weights (sliding_rows) */
+    size_t rows_capacity;
 
     /* 3-D: what tells that a particle cannot have penetrated since contacts were found */
     bool clear_current;
@@ -167,6 +166,15 @@ bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t 
  * SIDE_MAX_NODES; analytic: the centre. Returns their number. */
 int sliding_anchors(const struct boundary *boundary, const struct hit *hit, int32_t points[SIDE_MAX_NODES],
                     double weights[SIDE_MAX_NODES]);
+
+/** Points that move with a contact of a near particle and take its load, n_rows of them: their weights are
+ * those of the touches' shape functions by the parts of the touches, and add up to 1. There is room for all
+ * points of all touches. */
+static inline struct anchor *sliding_rows(const struct sliding *sliding, size_t near,
+                                          const struct contact *contact)
+{
+    return &sliding->rows[(sliding->touch_start[near] + contact->first) * sliding->anchors];
+}
 
 /** Direction from near particle to the plane of touch @p t of a contact (0: the first). */
 void sliding_touch_direction(const struct contact *contact, const struct touch *touches, uint32_t t,
