@@ -92,7 +92,8 @@ static void cut_triangle(struct piece *piece, const double (*x)[3])
         cut_polygon(piece, 3, x, normal, x[0]);
 }
 
-int piece_cut(struct piece pieces[4], int32_t facet, int dim, int n, const double (*x)[3], double flat)
+int piece_cut(struct piece pieces[4], int32_t facet, int dim, int n, const double (*x)[3], double flat,
+              int before)
 {
     for (int k = 0; k < (n == 4 ? 4 : 1); ++k)
         pieces[k] = (struct piece){.facet = facet, .quarter = -1};
@@ -104,7 +105,7 @@ int piece_cut(struct piece pieces[4], int32_t facet, int dim, int n, const doubl
         cut_triangle(&pieces[0], x);
         return 1;
     }
-    double centre[3], a[3], b[3], normal[3], off = 0.0;
+    double centre[3], a[3], b[3], normal[3], height[4], off = 0.0;
     for (int k = 0; k < 3; ++k)
         centre[k] = 0.25 * (x[0][k] + x[1][k] + x[2][k] + x[3][k]);
     difference(x[2], x[0], a);
@@ -114,17 +115,22 @@ int piece_cut(struct piece pieces[4], int32_t facet, int dim, int n, const doubl
         return 1;
     for (int c = 0; c < 4; ++c) {
         difference(x[c], centre, a);
-        off = fmax(off, fabs(dot(a, normal)));
+        height[c] = dot(a, normal);
+        off = fmax(off, fabs(height[c]));
     }
-    if (off <= flat) {
+    if (before ? before == 1 : off <= flat) {
         cut_polygon(&pieces[0], 4, x, normal, centre);
         return 1;
     }
+    const double turned = off < 2.0 * flat ? fmax(0.0, off / flat - 1.0) : 1.0;
     for (int c = 0; c < 4; ++c) {
+        const int next = (c + 1) % 4;
         double corners[3][3];
-        memcpy(corners[0], x[c], sizeof corners[0]);
-        memcpy(corners[1], x[(c + 1) % 4], sizeof corners[1]);
-        memcpy(corners[2], centre, sizeof corners[2]);
+        for (int k = 0; k < 3; ++k) {
+            corners[0][k] = x[c][k] - (1.0 - turned) * height[c] * normal[k];
+            corners[1][k] = x[next][k] - (1.0 - turned) * height[next] * normal[k];
+            corners[2][k] = centre[k];
+        }
         cut_triangle(&pieces[c], (const double(*)[3])corners);
         pieces[c].quarter = c;
     }

@@ -42,9 +42,11 @@ struct projection {
 };
 
 /** Cut the facet with corner places @p x (rows) into 1 or 4 pieces; a quad is cut where its corners lie
- * further than
- * @p flat from its mean plane. Returns their number. */
-int piece_cut(struct piece pieces[4], int32_t facet, int dim, int n, const double (*x)[3], double flat);
+ * further than @p flat from its mean plane. From there to twice as far its pieces turn out of that plane
+ * little by little, so that what they do has no jump. @p before, unless 0, is the number of pieces to keep.
+ * Returns their number. */
+int piece_cut(struct piece pieces[4], int32_t facet, int dim, int n, const double (*x)[3], double flat,
+              int before);
 
 /** Signed distance of @p x from the plane of a piece. */
 static inline double piece_plane_distance(const struct piece *piece, const double x[3])

@@ -259,11 +259,10 @@ void sliding_place(struct boundary *boundary, bool again)
         const struct surface *surface = boundary->surfaces[facet->surface];
         double x[4][3];
         struct piece pieces[4];
-        const double flat = !again ? s->flat : facet->n_pieces == 1 ? INFINITY : -1.0;
         for (int c = 0; c < 4 && c < facet->n_nodes; ++c)
             memcpy(x[c], surface->now.x[surface->nodes[facet->facet][c]], sizeof x[c]);
-        facet->n_pieces =
-            piece_cut(pieces, (int32_t)f, surface->dim, facet->n_nodes, (const double(*)[3])x, flat);
+        facet->n_pieces = piece_cut(pieces, (int32_t)f, surface->dim, facet->n_nodes, (const double(*)[3])x,
+                                    s->flat, again ? facet->n_pieces : 0);
         memcpy(&s->pieces[facet->pieces], pieces, (size_t)facet->n_pieces * sizeof *pieces);
     }
 }

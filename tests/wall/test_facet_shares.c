@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "wall/facet_shares.h"
+#include "wall/projection.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -256,13 +257,64 @@ static void test_layers_3d(void **state)
     }
 }
 
+/** What the pieces of a quad whose corners lie @p off beside its mean plane add to the sums of a particle. */
+static int quad_sums(const struct facet_shares *shares, double off, double flat, int before,
+                     double sums[SHARES])
+{
+    const double corners[4][3] = {{-1.3, -1.1, off}, {1.6, -1.2, -off}, {1.5, 1.3, off}, {-1.4, 1.2, -off}},
+                 place[3] = {0.37, -0.23, 0.71};
+    struct piece pieces[4];
+    const int n = piece_cut(pieces, 0, 3, 4, corners, flat, before);
+    sums[0] = sums[1] = sums[2] = 0.0;
+    for (int p = 0; p < n; ++p) {
+        struct projection at;
+        double share[SHARES], block[SHARES];
+        projection_find(&at, &pieces[p], place, 1e-7);
+        facet_shares_polygon(shares, at.d, &at.edges, share);
+        facet_shares_block(shares, fabs(at.d), block);
+        for (int k = 0; k < SHARES; ++k)
+            sums[k] += share[k] * block[k];
+    }
+    return n;
+}
+
+/** A quad that warps is cut without a jump, is warped as a whole at twice that, and stays as it is on
+ * request. */
+static void test_warping_quad(void **state)
+{
+    (void)state;
+    const double flat = 0.02;
+    struct facet_shares shares;
+    double plane[SHARES], cut[SHARES], before[SHARES], half[SHARES], whole[SHARES];
+    assert_int_equal(facet_shares_create(&shares, kernel_quintic(3, 1.0, false), 1.0, isa_best()), 0);
+    assert_int_equal(quad_sums(&shares, flat * (1.0 - 1e-7), flat, 0, plane), 1);
+    assert_int_equal(quad_sums(&shares, flat * (1.0 + 1e-7), flat, 0, cut), 4);
+    for (int k = 0; k < SHARES; ++k)
+        assert_close(cut[k], plane[k], 1e-6 * fabs(plane[k]));
+    assert_int_equal(quad_sums(&shares, 1.5 * flat, flat, 0, half), 4);
+    assert_int_equal(quad_sums(&shares, 0.75 * flat, 0.0, 0, before), 4);
+    for (int k = 0; k < SHARES; ++k) /* half way its corners lie half as far out of the plane as they do */
+        assert_close(half[k], before[k], 1e-9 * fabs(plane[k]));
+    assert_int_equal(quad_sums(&shares, 2.0 * flat, flat, 0, half), 4);
+    assert_int_equal(quad_sums(&shares, 2.0 * flat, 0.0, 0, whole), 4);
+    for (int k = 0; k < SHARES; ++k) {
+        assert_close(half[k], whole[k], 1e-9 * fabs(plane[k]));
+        assert_true(fabs(whole[k] - plane[k]) > 1e-3 * fabs(plane[k]));
+    }
+    assert_int_equal(quad_sums(&shares, 1.1 * flat, flat, 1, whole), 1);
+    assert_int_equal(quad_sums(&shares, 0.9 * flat, flat, 4, cut), 4);
+    for (int k = 0; k < SHARES; ++k)
+        assert_close(cut[k], whole[k], 1e-4 * fabs(plane[k]));
+    facet_shares_reset(&shares);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reference_2d), cmocka_unit_test(test_table_2d),
         cmocka_unit_test(test_reference_3d), cmocka_unit_test(test_instruction_sets),
         cmocka_unit_test(test_additive_3d),  cmocka_unit_test(test_gradient_2d),
-        cmocka_unit_test(test_layers_3d),
+        cmocka_unit_test(test_layers_3d),    cmocka_unit_test(test_warping_quad),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
