@@ -210,14 +210,14 @@ static void sliding_destroy(struct boundary *boundary)
         memory_free(s->work[k].owners);
         memory_free(s->work[k].order);
         memory_free(s->work[k].list);
+        memory_free(s->work[k].pairs);
         wall_neighbours_reset(&s->work[k].neighbours);
     }
     void *const arrays[] = {
-        s->facets,      s->pieces,        s->shapes,        s->candidates, s->candidate_start,
-        s->pairs,       s->stamp,         s->pair_particle, s->mask,       s->count,
-        s->contacts,    s->contact_start, s->contact_count, s->touches,    s->layers,
-        s->touch_start, s->touch_count,   s->rows,          s->clear,      s->clear_x,
-        s->wall_x,      s->put,           s->work,          s->pending,    s->pending_moment};
+        s->facets, s->pieces,      s->shapes,      s->candidates,    s->candidate_start, s->stamp,
+        s->mask,   s->count,       s->contacts,    s->contact_start, s->contact_count,   s->touches,
+        s->layers, s->touch_start, s->touch_count, s->rows,          s->clear,           s->clear_x,
+        s->wall_x, s->put,         s->work,        s->pending,       s->pending_moment};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k)
         memory_free(arrays[k]);
     memory_free(s);
@@ -267,30 +267,71 @@ void sliding_place(struct boundary *boundary, bool again)
     }
 }
 
-/** Note that particle @p j reaches @p item in the image @p shift, once. */
-static int add_pair(struct sliding *s, size_t *n, uint32_t j, int32_t item, const int shift[3])
+/** Note in @p work that particle @p j reaches @p item in the image @p shift. */
+static int add_pair(struct sliding_work *work, uint32_t j, int32_t item, const int shift[3])
 {
-    uint32_t bit = 1u << ((shift[0] + 1) + SHIFT_CODES * ((shift[1] + 1) + SHIFT_CODES * (shift[2] + 1)));
-    if (s->stamp[j] != (uint32_t)item + 1) {
-        s->stamp[j] = (uint32_t)item + 1;
-        s->mask[j] = 0;
-    }
-    if (s->mask[j] & bit)
-        return 0;
-    s->mask[j] |= bit;
-    CALL(memory_grow((void **)&s->pairs, &s->pairs_capacity, *n + 1, sizeof *s->pairs));
-    CALL(memory_grow((void **)&s->pair_particle, &s->pair_particle_capacity, *n + 1,
-                     sizeof *s->pair_particle));
-    s->pairs[*n] = (struct candidate){item, {(int8_t)shift[0], (int8_t)shift[1], (int8_t)shift[2]}};
-    s->pair_particle[(*n)++] = j;
+    CALL(memory_grow((void **)&work->pairs, &work->pairs_capacity, work->n_pairs + 1, sizeof *work->pairs));
+    work->pairs[work->n_pairs++] =
+        (struct near_pair){j, {item, {(int8_t)shift[0], (int8_t)shift[1], (int8_t)shift[2]}}};
     return 0;
 }
 
-/** Particles within @p reach of a piece, out of those within @p radius of @p place, a point of the piece. */
-static int search_tile(struct sliding *s, const struct fluid_view *view, const struct piece *piece,
-                       const double place[3], double radius, double reach, size_t *n)
+/** The bounding rectangle of a piece, cut into tiles of a few supports, so that large and slender facets cost
+ * what they touch. */
+struct tiling {
+    const struct piece *piece;
+    double low[2], step[2], half; /**< half: of a tile's diagonal */
+    int tiles[2];
+};
+
+static void tiling_create(struct tiling *tiling, const struct piece *piece, double support)
+{
+    double high[2] = {0.0, 0.0};
+    *tiling = (struct tiling){.piece = piece};
+    for (int c = 1; c < piece->n; ++c)
+        for (int k = 0; k < 2; ++k) {
+            tiling->low[k] = fmin(tiling->low[k], piece->corner[c][k]);
+            high[k] = fmax(high[k], piece->corner[c][k]);
+        }
+    for (int k = 0; k < 2; ++k) {
+        tiling->tiles[k] = (int)ceil(fmax(1.0, (high[k] - tiling->low[k]) / support));
+        tiling->step[k] = (high[k] - tiling->low[k]) / tiling->tiles[k];
+    }
+    tiling->half = 0.5 * sqrt(tiling->step[0] * tiling->step[0] + tiling->step[1] * tiling->step[1]);
+}
+
+/** Whether the point of the rectangle closest to @p x belongs to @p tile: it does to just one. */
+static bool tile_owns(const struct tiling *tiling, const int tile[2], const double x[3])
+{
+    const struct piece *piece = tiling->piece;
+    for (int k = 0; k < 2; ++k) {
+        if (tiling->tiles[k] == 1)
+            continue;
+        double local = -tiling->low[k];
+        for (int i = 0; i < 3; ++i)
+            local += (x[i] - piece->origin[i]) * piece->axis[k][i];
+        if ((tile[k] > 0 && local < tile[k] * tiling->step[k]) ||
+            (tile[k] + 1 < tiling->tiles[k] && local >= (tile[k] + 1) * tiling->step[k]))
+            return false;
+    }
+    return true;
+}
+
+/** Particles within @p reach of a piece that @p tile owns. */
+static int search_tile(const struct sliding *s, const struct fluid_view *view, const struct tiling *tiling,
+                       const int tile[2], double reach, struct sliding_work *work)
 {
     const double *const *x = (const double *const *)view->particles->x;
+    const struct piece *piece = tiling->piece;
+    const double local[2] = {tiling->low[0] + (tile[0] + 0.5) * tiling->step[0],
+                             tiling->low[1] + (tile[1] + 0.5) * tiling->step[1]},
+                 radius = tiling->half + reach;
+    double place[3];
+    struct projection projection;
+    piece_place(piece, local, place);
+    projection_find(&projection, piece, place, 0.0);
+    if (projection.distance > radius)
+        return 0;
     struct cell_range ranges[CELL_GRID_RANGES];
     size_t n_ranges = cell_grid_ranges(view->grid, place, radius, ranges);
     CHECK(n_ranges < CELL_GRID_RANGES, STATUS_NUMERICAL,
@@ -307,42 +348,30 @@ static int search_tile(struct sliding *s, const struct fluid_view *view, const s
             double at[3];
             for (int k = 0; k < 3; ++k)
                 at[k] = x[k][j] + ranges[r].shift[k];
-            if (fabs(piece_plane_distance(piece, at)) >= reach)
+            if (fabs(piece_plane_distance(piece, at)) >= reach || !tile_owns(tiling, tile, at))
                 continue;
-            struct projection projection;
             projection_find(&projection, piece, at, 0.0);
             if (projection.distance < reach)
-                CALL(add_pair(s, n, j, piece->facet, shift));
+                CALL(add_pair(work, j, piece->facet, shift));
         }
     }
     return 0;
 }
 
-/** Cut the bounding rectangle of a piece into tiles of a few supports, so that large and slender facets cost
- * what they touch. */
-static int search_piece(struct sliding *s, const struct fluid_view *view, const struct piece *piece,
-                        double reach, size_t *n)
+/** Particles within @p reach of part @p part of @p n_parts of the facets; the pieces of a quad can note a
+ * particle more than once. */
+static int search_facets(struct sliding *s, const struct fluid_view *view, size_t part, size_t n_parts,
+                         double reach, struct sliding_work *work)
 {
-    double low[2] = {0.0, 0.0}, high[2] = {0.0, 0.0}, step[2];
-    int tiles[2];
-    for (int c = 1; c < piece->n; ++c)
-        for (int k = 0; k < 2; ++k) {
-            low[k] = fmin(low[k], piece->corner[c][k]);
-            high[k] = fmax(high[k], piece->corner[c][k]);
-        }
-    for (int k = 0; k < 2; ++k) {
-        tiles[k] = (int)ceil(fmax(1.0, (high[k] - low[k]) / view->kernel.support));
-        step[k] = (high[k] - low[k]) / tiles[k];
-    }
-    const double half = 0.5 * sqrt(step[0] * step[0] + step[1] * step[1]);
-    for (int b = 0; b < tiles[1]; ++b)
-        for (int a = 0; a < tiles[0]; ++a) {
-            double local[2] = {low[0] + (a + 0.5) * step[0], low[1] + (b + 0.5) * step[1]}, place[3];
-            struct projection projection;
-            piece_place(piece, local, place);
-            projection_find(&projection, piece, place, 0.0);
-            if (projection.distance <= half)
-                CALL(search_tile(s, view, piece, place, half + reach, reach, n));
+    const size_t begin = s->n_facets * part / n_parts, end = s->n_facets * (part + 1) / n_parts;
+    for (size_t f = begin; f < end; ++f)
+        for (int p = 0; p < s->facets[f].n_pieces; ++p) {
+            const struct piece *piece = &s->pieces[s->facets[f].pieces + p];
+            struct tiling tiling;
+            tiling_create(&tiling, piece, view->kernel.support);
+            for (int b = 0; b < tiling.tiles[1] && piece->n; ++b)
+                for (int a = 0; a < tiling.tiles[0]; ++a)
+                    CALL(search_tile(s, view, &tiling, (const int[2]){a, b}, reach, work));
         }
     return 0;
 }
@@ -373,7 +402,7 @@ static double sliding_shape_distance(const struct sliding *s, const struct slidi
 /** Particles near an analytic surface: all of them are asked, by all threads; those that are near are added
  * in turn. */
 static int search_shape(struct boundary *boundary, const struct fluid_view *view, size_t surface,
-                        double reach, size_t *n)
+                        double reach, struct sliding_work *work)
 {
     struct sliding *s = boundary->data;
     const struct model_surface *definition = boundary->surfaces[surface]->definition;
@@ -396,21 +425,53 @@ static int search_shape(struct boundary *boundary, const struct fluid_view *view
         for (int k = 0; k < 3; ++k)
             CHECK(shift[k] >= -1 && shift[k] <= 1, STATUS_NUMERICAL,
                   "surface \"%s\" lies more than a period outside the domain", definition->name);
-        CALL(add_pair(s, n, (uint32_t)j, (int32_t)(s->n_facets + surface), shift));
+        CALL(add_pair(work, (uint32_t)j, (int32_t)(s->n_facets + surface), shift));
     }
     return 0;
 }
 
+/** Drop pairs that are there twice; counts those of each particle. Returns the number of particles that have
+ * some. */
+static size_t pairs_count(struct sliding *s, size_t n, size_t *n_pairs)
+{
+    size_t n_near = 0;
+    *n_pairs = 0;
+    memset(s->stamp, 0, n * sizeof *s->stamp);
+    memset(s->count, 0, n * sizeof *s->count);
+    for (size_t t = 0; t < s->n_work; ++t) {
+        struct sliding_work *work = &s->work[t];
+        size_t kept = 0;
+        for (size_t p = 0; p < work->n_pairs; ++p) {
+            const uint32_t j = work->pairs[p].particle, item = (uint32_t)work->pairs[p].candidate.item;
+            const int8_t *shift = work->pairs[p].candidate.shift;
+            const uint32_t bit =
+                1u << ((shift[0] + 1) + SHIFT_CODES * ((shift[1] + 1) + SHIFT_CODES * (shift[2] + 1)));
+            if (s->stamp[j] != item + 1) {
+                s->stamp[j] = item + 1;
+                s->mask[j] = 0;
+            }
+            if (s->mask[j] & bit)
+                continue;
+            s->mask[j] |= bit;
+            n_near += s->count[j]++ == 0;
+            work->pairs[kept++] = work->pairs[p];
+        }
+        work->n_pairs = kept;
+        *n_pairs += kept;
+    }
+    return n_near;
+}
+
 /** Sort the pairs by particle: near particles ascending, candidates ascending. */
-static int fill_near(struct boundary *boundary, const struct fluid_view *view, size_t n_pairs)
+static int fill_near(struct boundary *boundary, const struct fluid_view *view)
 {
     struct sliding *s = boundary->data;
     const size_t n = view->particles->n;
-    size_t n_near = 0, offset = 0;
+    size_t n_pairs, offset = 0;
     CALL(memory_grow((void **)&s->count, &s->count_capacity, n, sizeof *s->count));
-    memset(s->count, 0, n * sizeof *s->count);
-    for (size_t p = 0; p < n_pairs; ++p)
-        n_near += s->count[s->pair_particle[p]]++ == 0;
+    CALL(memory_grow((void **)&s->stamp, &s->stamp_capacity, n, sizeof *s->stamp));
+    CALL(memory_grow((void **)&s->mask, &s->mask_capacity, n, sizeof *s->mask));
+    const size_t n_near = pairs_count(s, n, &n_pairs);
     CALL(boundary_reserve_near(boundary, n_near));
     CALL(memory_grow((void **)&s->candidate_start, &s->candidate_start_capacity, n_near + 1,
                      sizeof *s->candidate_start));
@@ -427,8 +488,10 @@ static int fill_near(struct boundary *boundary, const struct fluid_view *view, s
     }
     s->candidate_start[n_near] = offset;
     // the starts serve as cursors and are set back afterwards
-    for (size_t p = 0; p < n_pairs; ++p)
-        s->candidates[s->candidate_start[s->count[s->pair_particle[p]]]++] = s->pairs[p];
+    for (size_t t = 0; t < s->n_work; ++t)
+        for (size_t p = 0; p < s->work[t].n_pairs; ++p)
+            s->candidates[s->candidate_start[s->count[s->work[t].pairs[p].particle]]++] =
+                s->work[t].pairs[p].candidate;
     for (size_t k = n_near; k > 0; --k)
         s->candidate_start[k] = s->candidate_start[k - 1];
     s->candidate_start[0] = 0;
@@ -479,23 +542,21 @@ static int reserve_contacts(struct boundary *boundary)
 static int sliding_list(struct boundary *boundary, const struct fluid_view *view)
 {
     struct sliding *s = boundary->data;
-    const size_t n = view->particles->n;
     const double reach = s->reach + view->skin;
-    size_t n_pairs = 0;
+    int status = 0;
     for (int k = 0; k < 3; ++k)
         s->period[k] = view->grid->periodic[k] ? view->grid->upper[k] - view->grid->lower[k] : 0.0;
     sliding_place(boundary, false);
-    CALL(memory_grow((void **)&s->stamp, &s->stamp_capacity, n, sizeof *s->stamp));
-    CALL(memory_grow((void **)&s->mask, &s->mask_capacity, n, sizeof *s->mask));
-    memset(s->stamp, 0, n * sizeof *s->stamp);
-    for (size_t f = 0; f < s->n_facets; ++f)
-        for (int p = 0; p < s->facets[f].n_pieces; ++p)
-            if (s->pieces[s->facets[f].pieces + p].n)
-                CALL(search_piece(s, view, &s->pieces[s->facets[f].pieces + p], reach, &n_pairs));
+#pragma omp parallel for schedule(static, 1) reduction(| : status)
+    for (size_t t = 0; t < s->n_work; ++t) {
+        s->work[t].n_pairs = 0;
+        status |= search_facets(s, view, t, s->n_work, reach, &s->work[t]);
+    }
+    CALL(status);
     for (size_t k = 0; k < boundary->n_surfaces; ++k)
         if (boundary->surfaces[k]->definition->kind != SURFACE_FACETS)
-            CALL(search_shape(boundary, view, k, reach, &n_pairs));
-    CALL(fill_near(boundary, view, n_pairs));
+            CALL(search_shape(boundary, view, k, reach, &s->work[s->n_work - 1]));
+    CALL(fill_near(boundary, view));
     return reserve_contacts(boundary);
 }
 

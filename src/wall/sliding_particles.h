@@ -74,6 +74,12 @@ struct candidate {
     int8_t shift[3];
 };
 
+/** A particle and a candidate of its. */
+struct near_pair {
+    uint32_t particle;
+    struct candidate candidate;
+};
+
 struct sliding_facet {
     int32_t surface, facet; /**< number in the surface */
     int32_t pieces;         /**< where its pieces start (room for one, a quad for four) */
@@ -97,6 +103,8 @@ struct sliding_work {
     struct wall_neighbours neighbours;
     uint32_t *list; /**< particles around contacts */
     size_t n_list, list_capacity;
+    struct near_pair *pairs; /**< what this part of the search found */
+    size_t n_pairs, pairs_capacity;
 };
 
 struct sliding {
@@ -114,10 +122,9 @@ struct sliding {
     bool placed;                  /**< pieces and shapes have been filled once */
 
     struct candidate *candidates; /**< of near particle k: candidate_start[k] .. candidate_start[k + 1] */
-    size_t candidates_capacity, *candidate_start, candidate_start_capacity, most_hits;
-    struct candidate *pairs; /**< workspace of the search */
-    uint32_t *pair_particle, *stamp, *mask, *count;
-    size_t pairs_capacity, pair_particle_capacity, stamp_capacity, mask_capacity, count_capacity;
+    size_t candidates_capacity, *candidate_start, candidate_start_capacity;
+    uint32_t *stamp, *mask, *count; /**< workspace of the search, per particle */
+    size_t stamp_capacity, mask_capacity, count_capacity;
 
     struct contact *contacts; /**< of near particle k: from contact_start[k], contact_count[k] of them */
     size_t contacts_capacity, *contact_start, contact_start_capacity;

@@ -3,7 +3,7 @@
 #include "wall_scene.h"
 
 #include "base/error.h"
-#include "wall/facet_shares.h"
+#include "wall/sliding_particles.h"
 
 #include <omp.h>
 
@@ -205,6 +205,80 @@ static void test_threads(void **state)
     assert_true(same(scene[0].surface->load[0], scene[1].surface->load[0], 3 * scene[0].surface->n_points));
     scene_end(&scene[0]);
     scene_end(&scene[1]);
+}
+
+/** Whether some piece of facet @p f is within reach of @p x, by asking each. */
+static bool facet_near(const struct sliding *s, size_t f, const double x[3], double reach)
+{
+    for (int p = 0; p < s->facets[f].n_pieces; ++p) {
+        struct projection projection;
+        projection_find(&projection, &s->pieces[s->facets[f].pieces + p], x, 0.0);
+        if (projection.distance < reach)
+            return true;
+    }
+    return false;
+}
+
+/** Candidates of particle @p i that asking every facet in every image gives: all of those listed of it, and
+ * no others. */
+static void candidates_compare(const struct scene *scene, uint32_t i, const struct candidate *listed,
+                               size_t n)
+{
+    const struct sliding *s = scene->boundary->data;
+    size_t k = 0;
+    for (size_t f = 0; f < s->n_facets; ++f) {
+        size_t images = 0;
+        for (int code = 0; code < 27; ++code) {
+            const int shift[3] = {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
+            double at[3];
+            for (int d = 0; d < 3; ++d)
+                at[d] = scene->particles->x[d][i] - shift[d] * s->period[d];
+            if (!facet_near(s, f, at, s->reach + scene->view.skin))
+                continue;
+            bool found = false;
+            for (size_t c = k; c < n && listed[c].item == (int32_t)f; ++c)
+                found |= listed[c].shift[0] == shift[0] && listed[c].shift[1] == shift[1] &&
+                         listed[c].shift[2] == shift[2];
+            assert_true(found);
+            ++images;
+        }
+        k += images;
+    }
+    assert_int_equal(k, n);
+}
+
+/** The search in tiles, by threads, finds what asking every facet does: a plane quad of many tiles and a
+ * warped one, across periodic sides, a sliver, and a small facet. */
+static void test_search(void **state)
+{
+    (void)state;
+    const double points[10][3] = {
+        {-7.3, -4.1, 1.2}, {5.9, -4.1, 3.4},   {5.9, 9.6, 3.4},   {-7.3, 9.6, 1.2},   {12.1, -5.2, -2.1},
+        {11.3, 10.7, 5.8}, {-7.9, -9.7, -6.0}, {8.8, -9.4, -5.6}, {-3.1, -9.6, -5.1}, {-3.3, -8.8, -6.3}};
+    const int32_t nodes[4][4] = {{0, 1, 2, 3}, {1, 4, 5, 2}, {6, 7, 8, -1}, {6, 8, 9, -1}};
+    const int before = omp_get_max_threads();
+    struct scene scene;
+    omp_set_num_threads(3);
+    scene_start(&scene, 3, -10.0, 10.0, true);
+    lattice(&scene, -10.0, -10.0, -10.0, 20, 20, 20, 0.3);
+    scene_facets(&scene, 10, points, 4, nodes);
+    scene_build(&scene, CORNERS_SHARES);
+    omp_set_num_threads(before);
+    const struct sliding *s = scene.boundary->data;
+    assert_int_equal(s->facets[0].n_pieces, 1);
+    assert_int_equal(s->facets[1].n_pieces, 4);
+    size_t near = 0, most = 0;
+    for (uint32_t i = 0; i < scene.particles->n; ++i) {
+        const bool listed = near < scene.boundary->n_near && scene.boundary->near[near] == i;
+        const size_t first = listed ? s->candidate_start[near] : 0,
+                     n = listed ? s->candidate_start[near + 1] - first : 0;
+        candidates_compare(&scene, i, &s->candidates[first], n);
+        most = n > most ? n : most;
+        near += listed;
+    }
+    assert_int_equal(near, scene.boundary->n_near);
+    assert_true(most > 2);
+    scene_end(&scene);
 }
 
 /** A circle as an analytic surface and as a polygon of 192 sides. */
@@ -794,15 +868,16 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat_is_paper),     cmocka_unit_test(test_linear_fields),
-        cmocka_unit_test(test_conservation),      cmocka_unit_test(test_subdivision),
-        cmocka_unit_test(test_threads),           cmocka_unit_test(test_circle),
-        cmocka_unit_test(test_rotating_circle),   cmocka_unit_test(test_turning),
-        cmocka_unit_test(test_periodic_plate),    cmocka_unit_test(test_added_mass),
-        cmocka_unit_test(test_put_back),          cmocka_unit_test(test_put_back_2d),
-        cmocka_unit_test(test_beyond_edge),       cmocka_unit_test(test_warped),
-        cmocka_unit_test(test_layers_are_blocks), cmocka_unit_test(test_again),
-        cmocka_unit_test(test_one_dimension),     cmocka_unit_test(test_check),
+        cmocka_unit_test(test_flat_is_paper), cmocka_unit_test(test_linear_fields),
+        cmocka_unit_test(test_conservation),  cmocka_unit_test(test_subdivision),
+        cmocka_unit_test(test_threads),       cmocka_unit_test(test_search),
+        cmocka_unit_test(test_circle),        cmocka_unit_test(test_rotating_circle),
+        cmocka_unit_test(test_turning),       cmocka_unit_test(test_periodic_plate),
+        cmocka_unit_test(test_added_mass),    cmocka_unit_test(test_put_back),
+        cmocka_unit_test(test_put_back_2d),   cmocka_unit_test(test_beyond_edge),
+        cmocka_unit_test(test_warped),        cmocka_unit_test(test_layers_are_blocks),
+        cmocka_unit_test(test_again),         cmocka_unit_test(test_one_dimension),
+        cmocka_unit_test(test_check),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
