@@ -16,7 +16,10 @@ struct point_array {
     size_t size; /**< of an entry */
 };
 
-enum { POINT_ARRAYS = 19 };
+/** Less than so many points or contacts are not worth more than one thread. */
+#define LEAST_SHARED 2000
+
+enum { POINT_ARRAYS = 19 + SURFACE_PARTS };
 
 /** Every one of them, so that none is forgotten when they are made, grow or go. */
 static void point_arrays(struct surface *s, struct point_array arrays[POINT_ARRAYS])
@@ -34,6 +37,8 @@ static void point_arrays(struct surface *s, struct point_array arrays[POINT_ARRA
     *arrays++ = (struct point_array){(void **)&s->load, sizeof *s->load};
     *arrays++ = (struct point_array){(void **)&s->load_previous, sizeof *s->load_previous};
     *arrays++ = (struct point_array){(void **)&s->impulse, sizeof *s->impulse};
+    for (size_t k = 0; k < SURFACE_PARTS; ++k)
+        *arrays++ = (struct point_array){(void **)&s->part[k], sizeof *s->part[k]};
 }
 
 /** Room for @p more points behind those that there are. */
@@ -367,6 +372,17 @@ void surface_clear_load(struct surface *surface)
     memset(surface->moment, 0, sizeof surface->moment);
 }
 
+void surface_sum_parts(const struct surface *surface, double (*sum)[3])
+{
+#pragma omp parallel for schedule(static) if (surface->n_points >= LEAST_SHARED)
+    for (size_t i = 0; i < surface->n_points; ++i)
+        for (size_t part = 0; part < SURFACE_PARTS; ++part)
+            for (int k = 0; k < 3; ++k) {
+                sum[i][k] += surface->part[part][i][k];
+                surface->part[part][i][k] = 0.0;
+            }
+}
+
 void surface_add_impulse(struct surface *surface, double dt, enum surface_load kind)
 {
     for (size_t i = 0; i < surface->n_points; ++i)
@@ -387,27 +403,44 @@ static void anchors_gather(const struct anchor *anchors, uint32_t n, const doubl
             sum[k] += anchors[j].weight * values[anchors[j].point][k];
 }
 
+int surface_added_mass_reserve(struct surface *surface)
+{
+    CALL(memory_grow((void **)&surface->added_mass, &surface->added_mass_capacity, surface->n_added_mass,
+                     sizeof *surface->added_mass));
+    return memory_grow((void **)&surface->anchors, &surface->anchors_capacity, surface->n_anchors,
+                       sizeof *surface->anchors);
+}
+
+static void contact_apply(const struct surface *surface, const struct added_mass_contact *contact,
+                          const double (*acceleration)[3], double per_acceleration, double (*result)[3])
+{
+    const struct anchor *rows = surface->anchors + contact->row;
+    const double damping = per_acceleration * contact->damping;
+    double a[3], own[3], f[3];
+    anchors_gather(surface->anchors + contact->column, contact->n_columns, acceleration, a);
+    if (contact->row == contact->column)
+        memcpy(own, a, sizeof own);
+    else
+        anchors_gather(rows, contact->n_rows, acceleration, own);
+    for (int k = 0; k < 3; ++k)
+        f[k] = contact->tensor[k][0] * a[0] + contact->tensor[k][1] * a[1] + contact->tensor[k][2] * a[2] +
+               damping * own[k];
+    for (uint32_t j = 0; j < contact->n_rows; ++j)
+        for (int k = 0; k < 3; ++k)
+            result[rows[j].point][k] += rows[j].weight * f[k];
+}
+
 void surface_added_mass_apply(const struct surface *surface, const double (*acceleration)[3],
                               double per_acceleration, double (*result)[3])
 {
+    const size_t n = surface->n_added_mass;
+#pragma omp parallel for schedule(static, 1) if (n >= LEAST_SHARED)
+    for (size_t part = 0; part < SURFACE_PARTS; ++part)
+        for (size_t c = n * part / SURFACE_PARTS; c < n * (part + 1) / SURFACE_PARTS; ++c)
+            contact_apply(surface, &surface->added_mass[c], acceleration, per_acceleration,
+                          surface->part[part]);
     memset(result, 0, surface->n_points * sizeof *result);
-    for (size_t c = 0; c < surface->n_added_mass; ++c) {
-        const struct added_mass_contact *contact = &surface->added_mass[c];
-        const struct anchor *rows = surface->anchors + contact->row;
-        const double damping = per_acceleration * contact->damping;
-        double a[3], own[3], f[3];
-        anchors_gather(surface->anchors + contact->column, contact->n_columns, acceleration, a);
-        if (contact->row == contact->column)
-            memcpy(own, a, sizeof own);
-        else
-            anchors_gather(rows, contact->n_rows, acceleration, own);
-        for (int k = 0; k < 3; ++k)
-            f[k] = contact->tensor[k][0] * a[0] + contact->tensor[k][1] * a[1] +
-                   contact->tensor[k][2] * a[2] + damping * own[k];
-        for (uint32_t j = 0; j < contact->n_rows; ++j)
-            for (int k = 0; k < 3; ++k)
-                result[rows[j].point][k] += rows[j].weight * f[k];
-    }
+    surface_sum_parts(surface, result);
 }
 
 void surface_total_load(const struct surface *surface, const double centre[3], double force[3],

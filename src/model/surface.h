@@ -34,6 +34,9 @@ struct added_mass_contact {
     double damping;             /**< D, kg/s */
 };
 
+/** Threads add to as many parts side by side (surface_sum_parts), at any number of threads alike. */
+enum { SURFACE_PARTS = 8 };
+
 /** The only thing fluid and solid share: points, optionally facets or an analytic shape, their motion at the
  * start and end of the step, and the loads on them. First come the points of the facets, then (where walls
  * are made of material points) further nodes of meshes, inside the body. An analytic surface has one point,
@@ -63,8 +66,9 @@ struct surface {
     size_t n_added_mass, added_mass_capacity;
     struct added_mass_contact *added_mass;
     struct anchor *anchors; /**< of its rows and columns */
-    size_t anchors_capacity;
-    struct field_group fields; /**< named "surface-NAME" */
+    size_t n_anchors, anchors_capacity;
+    double (*part[SURFACE_PARTS])[3]; /**< workspace of n_points rows each, zero between uses */
+    struct field_group fields;        /**< named "surface-NAME" */
     struct field field_list[7];
 };
 
@@ -115,10 +119,16 @@ int surface_spread(const struct surface *surface, size_t facet, int32_t points[S
 /** load := 0, moment := 0. */
 void surface_clear_load(struct surface *surface);
 
+/** Add the parts, one after the other, to @p sum (n_points rows) and make them zero again. */
+void surface_sum_parts(const struct surface *surface, double (*sum)[3]);
+
 enum surface_load { SURFACE_LOAD_MEAN, SURFACE_LOAD_END };
 /** Add dt f (mean loads) or dt/2 (load_previous + f) (end-of-step loads) to the impulse; then load_previous
  * := load. */
 void surface_add_impulse(struct surface *surface, double dt, enum surface_load kind);
+
+/** Make room for n_added_mass contacts with n_anchors anchors in all. Returns 0 or STATUS_MEMORY. */
+int surface_added_mass_reserve(struct surface *surface);
 
 /** result[i] = sum of (T + b D) accelerations over the contacts (rows of 3, n_points each), b = @p
  * per_acceleration (s): what an acceleration of 1 adds to the velocity. result is overwritten. */

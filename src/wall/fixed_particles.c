@@ -652,11 +652,8 @@ static int fixed_particles_added_mass(struct boundary *boundary, const struct fl
     for (size_t k = 0; k < f->material.n; ++k)
         f->tensor[k] = boundary->surfaces[f->material.surface[k]]->n_added_mass++;
     for (size_t s = 0; s < boundary->n_surfaces; ++s) {
-        struct surface *surface = boundary->surfaces[s];
-        CALL(memory_grow((void **)&surface->added_mass, &surface->added_mass_capacity, surface->n_added_mass,
-                         sizeof *surface->added_mass));
-        CALL(memory_grow((void **)&surface->anchors, &surface->anchors_capacity,
-                         f->material.n ? f->material.start[f->material.n] : 0, sizeof *surface->anchors));
+        boundary->surfaces[s]->n_anchors = f->material.n ? f->material.start[f->material.n] : 0;
+        CALL(surface_added_mass_reserve(boundary->surfaces[s]));
     }
 #pragma omp parallel for schedule(static)
     for (size_t k = 0; k < f->material.n; ++k) {

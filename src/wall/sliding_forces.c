@@ -395,16 +395,20 @@ void sliding_react(struct boundary *boundary, size_t near, const struct wall_nei
             contacts[neighbours->source[n]].force[k] -= force[k][n];
 }
 
-/** Spread a contact's force over the points of its surface. */
-static void contact_load(const struct sliding *s, size_t near, struct surface *surface,
+/** Spread a contact's force over the points of its surface, in one of its parts. */
+static void contact_load(const struct sliding *s, size_t near, const struct surface *surface, size_t part,
                          const struct contact *contact)
 {
     const struct anchor *rows = sliding_rows(s, near, contact);
+    double(*load)[3] = surface->part[part];
     for (uint32_t r = 0; r < contact->n_rows; ++r)
         for (int k = 0; k < 3; ++k)
-            surface->load[rows[r].point][k] += rows[r].weight * contact->force[k];
-    if (surface->definition->kind == SURFACE_FACETS)
-        return;
+            load[rows[r].point][k] += rows[r].weight * contact->force[k];
+}
+
+/** Moment of a contact's force about the centre of its analytic surface. */
+static void contact_moment(const struct sliding *s, struct surface *surface, const struct contact *contact)
+{
     double arm[3];
     for (int k = 0; k < 3; ++k)
         arm[k] = contact->c[k] - contact->shift[k] - s->shapes[contact->surface].centre[k];
@@ -427,13 +431,36 @@ static void pending_load(const struct sliding *s, struct boundary *boundary, dou
     }
 }
 
+/** Loads of part @p part of the near particles. */
+static void part_load(const struct boundary *boundary, size_t part)
+{
+    const struct sliding *s = boundary->data;
+    const size_t begin = boundary->n_near * part / SURFACE_PARTS,
+                 end = boundary->n_near * (part + 1) / SURFACE_PARTS;
+    for (size_t near = begin; near < end; ++near)
+        for (size_t k = 0; k < s->contact_count[near]; ++k) {
+            const struct contact *contact = &s->contacts[s->contact_start[near] + k];
+            contact_load(s, near, boundary->surfaces[contact->surface], part, contact);
+        }
+}
+
 void sliding_load(struct boundary *boundary, const struct fluid_view *view)
 {
     const struct sliding *s = boundary->data;
-    for (size_t near = 0; near < boundary->n_near; ++near)
+#pragma omp parallel for schedule(static, 1)
+    for (size_t part = 0; part < SURFACE_PARTS; ++part)
+        part_load(boundary, part);
+    bool analytic = false;
+    for (size_t k = 0; k < boundary->n_surfaces; ++k) {
+        surface_sum_parts(boundary->surfaces[k], boundary->surfaces[k]->load);
+        analytic |= boundary->surfaces[k]->definition->kind != SURFACE_FACETS;
+    }
+    for (size_t near = 0; near < boundary->n_near && analytic; ++near)
         for (size_t k = 0; k < s->contact_count[near]; ++k) {
             const struct contact *contact = &s->contacts[s->contact_start[near] + k];
-            contact_load(s, near, boundary->surfaces[contact->surface], contact);
+            struct surface *surface = boundary->surfaces[contact->surface];
+            if (surface->definition->kind != SURFACE_FACETS)
+                contact_moment(s, surface, contact);
         }
     if (boundary->put_back_count > 0 && view->dt > 0.0)
         pending_load(s, boundary, view->dt);
@@ -481,30 +508,29 @@ static int reserve_tensors(struct boundary *boundary)
 {
     const struct sliding *s = boundary->data;
     for (size_t k = 0; k < boundary->n_surfaces; ++k)
-        boundary->surfaces[k]->n_added_mass = 0;
+        boundary->surfaces[k]->n_added_mass = boundary->surfaces[k]->n_anchors = 0;
     for (size_t near = 0; near < boundary->n_near; ++near) {
         struct contact *contacts = &s->contacts[s->contact_start[near]];
         for (size_t k = 0; k < s->contact_count[near]; ++k) {
             struct surface *surface = boundary->surfaces[contacts[k].surface];
             contacts[k].tensor = surface->coupled ? surface->n_added_mass++ : SIZE_MAX;
+            surface->n_anchors += surface->coupled ? contacts[k].n_rows : 0;
         }
     }
     for (size_t k = 0; k < boundary->n_surfaces; ++k) {
         struct surface *surface = boundary->surfaces[k];
-        CALL(memory_grow((void **)&surface->added_mass, &surface->added_mass_capacity, surface->n_added_mass,
-                         sizeof *surface->added_mass));
+        CALL(surface_added_mass_reserve(surface));
+        surface->n_anchors = 0;
     }
-    for (size_t k = 0; k < boundary->n_surfaces; ++k) {
-        struct surface *surface = boundary->surfaces[k];
-        size_t anchors = 0;
-        for (size_t near = 0; surface->coupled && near < boundary->n_near; ++near)
-            for (size_t c = s->contact_start[near]; c < s->contact_start[near] + s->contact_count[near]; ++c)
-                if (s->contacts[c].surface == (int32_t)k) {
-                    surface->added_mass[s->contacts[c].tensor].row = anchors;
-                    anchors += s->contacts[c].n_rows;
-                }
-        CALL(memory_grow((void **)&surface->anchors, &surface->anchors_capacity, anchors,
-                         sizeof *surface->anchors));
+    for (size_t near = 0; near < boundary->n_near; ++near) {
+        const struct contact *contacts = &s->contacts[s->contact_start[near]];
+        for (size_t k = 0; k < s->contact_count[near]; ++k) {
+            struct surface *surface = boundary->surfaces[contacts[k].surface];
+            if (!surface->coupled)
+                continue;
+            surface->added_mass[contacts[k].tensor].row = surface->n_anchors;
+            surface->n_anchors += contacts[k].n_rows;
+        }
     }
     return 0;
 }

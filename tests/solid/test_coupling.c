@@ -55,6 +55,8 @@ static void fluid_init(struct fluid *fluid, double tensor)
     surface->mesh_node = memory_create(POINTS, sizeof *surface->mesh_node);
     surface->load = memory_create(POINTS, sizeof *surface->load);
     assert_true(surface->mesh && surface->mesh_node && surface->load);
+    for (int k = 0; k < SURFACE_PARTS; ++k)
+        assert_non_null(surface->part[k] = memory_create(POINTS, sizeof *surface->part[k]));
     motion_init(&surface->level[0]);
     motion_init(&surface->level[1]);
     motion_init(&surface->trial);
@@ -83,6 +85,8 @@ static void fluid_reset(struct fluid *fluid)
     memory_free(fluid->surface.mesh);
     memory_free(fluid->surface.mesh_node);
     memory_free(fluid->surface.load);
+    for (int k = 0; k < SURFACE_PARTS; ++k)
+        memory_free(fluid->surface.part[k]);
     motion_free(&fluid->surface.level[0]);
     motion_free(&fluid->surface.level[1]);
     motion_free(&fluid->surface.trial);
