@@ -9,6 +9,7 @@
 #include "model/surface.h"
 
 #include <math.h>
+#include <omp.h>
 #include <string.h>
 
 /** Three points: the first two are prescribed, the last is moved by a mesh. */
@@ -249,6 +250,46 @@ static void test_added_mass(void **state)
     teardown(&f);
 }
 
+/** Many contacts, as threads share them: the sum is what one after the other gives, bit for bit the same at
+ * any number of threads, and nothing of it is left for the next. */
+static void test_many_contacts(void **state)
+{
+    (void)state;
+    enum { CONTACTS = 4999 };
+    struct fixture f;
+    setup(&f);
+    struct surface *s = f.surface;
+    s->added_mass = memory_create(CONTACTS, sizeof *s->added_mass);
+    s->anchors = memory_create(2 * CONTACTS, sizeof *s->anchors);
+    s->n_added_mass = CONTACTS;
+    const double a[3][3] = {{9.1, -0.3, 2.7}, {1.3, 0.6, -4.1}, {0.2, 2.9, 0.8}};
+    double expected[3][3] = {{0.0}}, result[3][3][3];
+    for (size_t c = 0; c < CONTACTS; ++c) {
+        const double weight = 0.5 + 0.4 * sin(1.7 * (double)c), t = 1.0 + 0.3 * cos((double)c);
+        const int32_t first = (int32_t)(c % 3), second = (first + 1) % 3;
+        s->added_mass[c] = (struct added_mass_contact){
+            2 * c, 2 * c, 2, 2, {{t, 0.0, 0.0}, {0.0, t, 0.0}, {0.0, 0.0, t}}, 0.0};
+        s->anchors[2 * c] = (struct anchor){weight, first};
+        s->anchors[2 * c + 1] = (struct anchor){1.0 - weight, second};
+        for (int k = 0; k < 3; ++k) {
+            const double force = t * (weight * a[first][k] + (1.0 - weight) * a[second][k]);
+            expected[first][k] += weight * force;
+            expected[second][k] += (1.0 - weight) * force;
+        }
+    }
+    const int before = omp_get_max_threads(), threads[3] = {1, 3, 3};
+    for (int run = 0; run < 3; ++run) {
+        omp_set_num_threads(threads[run]);
+        surface_added_mass_apply(s, a, 0.0, result[run]);
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k)
+                assert_true(fabs(result[run][i][k] - expected[i][k]) < 1e-9);
+        assert_memory_equal(result[run], result[0], sizeof result[0]);
+    }
+    omp_set_num_threads(before);
+    teardown(&f);
+}
+
 /** Motion and load of a piece of a curved side belong to the whole side: line3 with nodes 0, 1 and 2 in the
  * middle, by hand at xi = -0.3 and 0.4. */
 static void test_spread(void **state)
@@ -305,7 +346,8 @@ int main(void)
         cmocka_unit_test(test_create),          cmocka_unit_test(test_add_nodes),
         cmocka_unit_test(test_levels),          cmocka_unit_test(test_loads),
         cmocka_unit_test(test_parts_of_a_step), cmocka_unit_test(test_added_mass),
-        cmocka_unit_test(test_spread),          cmocka_unit_test(test_analytic),
+        cmocka_unit_test(test_many_contacts),   cmocka_unit_test(test_spread),
+        cmocka_unit_test(test_analytic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
