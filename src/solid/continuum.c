@@ -166,6 +166,8 @@ static void destroy(struct solid *solid)
     sparse_solver_destroy(continuum->solver);
     gmres_destroy(continuum->gmres);
     void *const memory[] = {continuum->element_data,
+                            continuum->element_forces,
+                            continuum->batch,
                             continuum->equation,
                             continuum->component,
                             continuum->moving_support,

@@ -29,8 +29,10 @@ struct continuum {
     struct constitutive material;
     double density;
     struct generalized_alpha method;
-    double *element_data; /**< kernel->data_size per element */
-    size_t bad_element;   /**< the one that was inverted, after a failed evaluation */
+    double *element_data;   /**< kernel->data_size per element */
+    double *element_forces; /**< workspace: dof per element */
+    double *batch;          /**< workspace: stiffnesses of some elements */
+    size_t bad_element;     /**< the one that was inverted, after a failed evaluation */
 
     size_t n_free;
     int32_t *equation;       /**< per node and component: its equation, -1: prescribed */

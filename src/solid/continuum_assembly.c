@@ -12,6 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    BATCH = 64,       /**< elements whose stiffnesses are held at a time */
+    LEAST_SHARED = 64 /**< fewer elements are not worth more than one thread */
+};
+
 /** Round-off of internal forces in units of (stiffness x area of an element's side). */
 static const double rounding = 64 * DBL_EPSILON;
 
@@ -33,6 +38,9 @@ static int build_elements(struct continuum *continuum)
     double largest = 0;
     continuum->element_data = memory_create(n * size, sizeof *continuum->element_data);
     CHECK_MEMORY(continuum->element_data);
+    CHECK_MEMORY(continuum->element_forces = memory_create(n * (size_t)continuum->dof, sizeof(double)));
+    CHECK_MEMORY(continuum->batch =
+                     memory_create((size_t)(BATCH * continuum->dof * continuum->dof), sizeof(double)));
     for (size_t e = 0; e < n; e++) {
         double X[ELEMENT_MAX_NODES][3], *data = continuum->element_data + e * size;
         const double rest[ELEMENT_MAX_DOF] = {0};
@@ -252,24 +260,39 @@ void continuum_gather(const struct continuum *continuum, size_t element, const d
             local[a * dim + i] = d[nodes[a]][i];
 }
 
+/** Internal forces and, unless NULL, stiffnesses of elements @p first .. @p first + @p n - 1, one after the
+ * other. STATUS_NUMERICAL (not reported, bad_element set) when one is inverted. */
+static int elements_evaluate(struct continuum *continuum, size_t first, size_t n, const double (*d)[3],
+                             double *forces, double *K)
+{
+    const struct element_kernel *kernel = continuum->kernel;
+    const size_t dof = (size_t)continuum->dof;
+    size_t bad = SIZE_MAX;
+#pragma omp parallel for schedule(static) reduction(min : bad) if (n >= LEAST_SHARED)
+    for (size_t e = 0; e < n; e++) {
+        double local[ELEMENT_MAX_DOF];
+        continuum_gather(continuum, first + e, d, local);
+        if (kernel->forces(continuum->element_data + (first + e) * kernel->data_size, &continuum->material,
+                           local, forces + e * dof, K ? K + e * dof * dof : NULL))
+            bad = first + e < bad ? first + e : bad;
+    }
+    if (bad == SIZE_MAX)
+        return 0;
+    continuum->bad_element = bad;
+    return STATUS_NUMERICAL;
+}
+
 int continuum_internal_forces(struct continuum *continuum, const double (*d)[3], double (*f)[3])
 {
     const int dim = continuum->dim, per = continuum->mesh->nodes_per_element;
+    const double *force = continuum->element_forces;
+    CALL(elements_evaluate(continuum, 0, continuum->mesh->n_elements, d, continuum->element_forces, NULL));
     memset(f, 0, continuum->mesh->n_nodes * sizeof *f);
     for (size_t e = 0; e < continuum->mesh->n_elements; e++) {
         const int32_t *nodes = element_nodes_of(continuum, e);
-        double local[ELEMENT_MAX_DOF], force[ELEMENT_MAX_DOF];
-        continuum_gather(continuum, e, d, local);
-        const int status =
-            continuum->kernel->forces(continuum->element_data + e * continuum->kernel->data_size,
-                                      &continuum->material, local, force, NULL);
-        if (status) {
-            continuum->bad_element = e;
-            return status;
-        }
         for (int a = 0; a < per; a++)
             for (int i = 0; i < dim; i++)
-                f[nodes[a]][i] += force[a * dim + i];
+                f[nodes[a]][i] += *force++;
     }
     return 0;
 }
@@ -277,18 +300,16 @@ int continuum_internal_forces(struct continuum *continuum, const double (*d)[3],
 int continuum_factor(struct continuum *continuum, double mass_factor, double stiffness_factor,
                      const double (*d)[3])
 {
-    const size_t size = (size_t)(continuum->dof * continuum->dof);
+    const size_t size = (size_t)(continuum->dof * continuum->dof), n = continuum->mesh->n_elements;
     for (size_t k = 0; k < continuum->nonzeros; k++)
         continuum->values[k] = mass_factor * continuum->mass_values[k];
-    for (size_t e = 0; stiffness_factor > 0 && e < continuum->mesh->n_elements; e++) {
-        double local[ELEMENT_MAX_DOF], force[ELEMENT_MAX_DOF], K[ELEMENT_MAX_DOF * ELEMENT_MAX_DOF];
-        continuum_gather(continuum, e, d, local);
-        continuum->bad_element = e;
-        if (continuum->kernel->forces(continuum->element_data + e * continuum->kernel->data_size,
-                                      &continuum->material, local, force, K))
+    for (size_t first = 0; stiffness_factor > 0 && first < n; first += BATCH) {
+        const size_t count = n - first < BATCH ? n - first : BATCH;
+        const double *K = continuum->batch;
+        if (elements_evaluate(continuum, first, count, d, continuum->element_forces, continuum->batch))
             return continuum_report_inverted(continuum, continuum->solid->t + continuum->solid->dt);
-        const int32_t *scatter = continuum->scatter + e * size;
-        for (size_t k = 0; k < size; k++)
+        const int32_t *scatter = continuum->scatter + first * size;
+        for (size_t k = 0; k < count * size; k++)
             if (scatter[k] >= 0)
                 continuum->values[scatter[k]] += stiffness_factor * K[k];
     }
