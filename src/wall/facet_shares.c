@@ -406,7 +406,7 @@ static void polygon(const struct facet_shares *shares, double d, const struct pr
         share[k] = 0.0;
     if (a >= shares->last)
         return;
-    struct share_edges edges;
+    struct share_edges edges = {0};
     struct share_plane plane;
     double sum[SHARES] = {0.0, 0.0, 0.0};
     const double whole = polygon_edges(shares, a, all, &edges);

@@ -5,7 +5,7 @@
 
 #include "sph/sweep_vector.h"
 
-enum { SHORT_POINTS = 8, LONG_POINTS = 16, ANGLES = 16, MOST_EDGES = 4 };
+enum { SHORT_POINTS = 8, LONG_POINTS = 16, MOST_EDGES = 4, ANGLES = 2 * MOST_EDGES };
 
 #define PI 3.14159265358979323846
 
@@ -26,15 +26,16 @@ static const double long_w[LONG_POINTS] = {
     0.18945061045506847,  0.18260341504492361,  0.16915651939500256,  0.14959598881657682,
     0.12462897125553395,  0.095158511682492897, 0.062253523938647776, 0.027152459411754058};
 
-/** Angles of the directions (x, y), as atan2 to rounding: the quotient is brought below tan(pi/8), where a
- * rational approximation (coefficients of Cephes, S. Moshier) holds. */
+/** Angles of the directions (x, y), as atan2 to rounding: the quotient, or its tangent of the difference from
+ * pi/4, is below tan(pi/8), where a rational approximation (coefficients of Cephes, S. Moshier) holds. */
 SWEEP_INLINE void angles(const double *y, const double *x, double *angle)
 {
 #pragma omp simd
     for (int k = 0; k < ANGLES; ++k) {
         const double ax = fabs(x[k]), ay = fabs(y[k]), high = ax > ay ? ax : ay, low = ax > ay ? ay : ax;
-        const double q = low / (high > 0.0 ? high : 1.0);
-        const double r = q > 0.41421356237309503 ? (q - 1.0) / (q + 1.0) : q, z = r * r;
+        const bool steeper = low > 0.41421356237309503 * high;
+        const double over = steeper ? low - high : low, under = steeper ? low + high : high;
+        const double r = over / (under > 0.0 ? under : 1.0), z = r * r;
         const double p = ((((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z -
                             7.500855792314704667340e1) *
                                z -
@@ -48,7 +49,7 @@ SWEEP_INLINE void angles(const double *y, const double *x, double *angle)
                           4.853903996359136964868e2) *
                              z +
                          1.945506571482613964425e2;
-        const double within = r + r * p / d + (q > 0.41421356237309503 ? 0.25 * PI : 0.0);
+        const double within = r + r * p / d + (steeper ? 0.25 * PI : 0.0);
         const double steep = ay > ax ? 0.5 * PI - within : within, wide = x[k] < 0.0 ? PI - steep : steep;
         angle[k] = y[k] < 0.0 ? -wide : wide;
     }
@@ -80,11 +81,12 @@ SWEEP_INLINE share_lanes panel(const struct facet_shares *shares, double a, cons
 #pragma omp simd
     for (int g = 0; g < points; ++g) {
         const double s = centre + half * xi[g], t = h * h + s * s, R = sqrt(a * a + t), u = R * per_step;
+        const double shared = 1.0 / (R * t);
         const int whole = (int)u, i = whole < last ? whole : last;
         step[g] = i;
         part[g] = u - i < 1.0 ? u - i : 1.0; /* at the end of the range all are 0 */
-        aR[g] = a / R;
-        weight[g] = weights[g] / t;
+        aR[g] = a * t * shared;
+        weight[g] = weights[g] * R * shared;
     }
     for (int g = 0; g < points; ++g) {
         const share_lanes *c = shares->profile[step[g]].c;
@@ -102,7 +104,7 @@ void SWEEP_NAME(facet_shares_edges)(const struct facet_shares *shares, const str
                                     const struct share_edges *edges, double sum[SHARES])
 {
     const double a = plane->a;
-    double x[ANGLES] = {0.0}, y[ANGLES] = {0.0}, angle[ANGLES];
+    double x[ANGLES], y[ANGLES], angle[ANGLES];
     const struct plane_lanes lanes = {.factor =
                                           1.0 / (lanes_of(plane->f) + (share_lanes){0.0, 0.0, 0.0, 1.0}),
                                       .alpha = lanes_of(plane->alpha),
@@ -110,14 +112,14 @@ void SWEEP_NAME(facet_shares_edges)(const struct facet_shares *shares, const str
                                       .per_R = {1.0, 0.0, 1.0, 0.0},
                                       .constant = {0.0, 1.0, 0.0, 0.0}};
     share_lanes total = {0.0, 0.0, 0.0, 0.0};
-    for (int e = 0; e < edges->n; ++e) {
-        const double h = edges->h[e], s0 = edges->s0[e], s1 = edges->s1[e];
-        y[e] = a * s1;
-        x[e] = h * sqrt(a * a + h * h + s1 * s1);
-        y[MOST_EDGES + e] = a * s0;
-        x[MOST_EDGES + e] = h * sqrt(a * a + h * h + s0 * s0);
-        y[2 * MOST_EDGES + e] = h * (s1 - s0);
-        x[2 * MOST_EDGES + e] = h * h + s0 * s1;
+#pragma omp simd
+    for (int e = 0; e < MOST_EDGES; ++e) { /* edges that are not there have h = s0 = s1 = 0 */
+        const double h = edges->h[e], s0 = edges->s0[e], s1 = edges->s1[e], a2h2 = a * a + h * h;
+        const double y0 = a * s0, y1 = a * s1, x0 = h * sqrt(a2h2 + s0 * s0), x1 = h * sqrt(a2h2 + s1 * s1);
+        y[e] = y1 * x0 - x1 * y0; /* the difference of the two angles, each less than pi/2 */
+        x[e] = x1 * x0 + y1 * y0;
+        y[MOST_EDGES + e] = h * (s1 - s0);
+        x[MOST_EDGES + e] = h * h + s0 * s1;
     }
     angles(y, x, angle);
     for (int e = 0; e < edges->n; ++e) {
@@ -129,8 +131,7 @@ void SWEEP_NAME(facet_shares_edges)(const struct facet_shares *shares, const str
         const share_lanes integral = apart2 > half * half
                                          ? panel(shares, a, &lanes, h, s0, s1, short_x, short_w, SHORT_POINTS)
                                          : panel(shares, a, &lanes, h, s0, s1, long_x, long_w, LONG_POINTS);
-        total += edges->side[e] * (integral + (angle[e] - angle[MOST_EDGES + e]) * lanes.alpha +
-                                   angle[2 * MOST_EDGES + e] * lanes.beta);
+        total += edges->side[e] * (integral + angle[e] * lanes.alpha + angle[MOST_EDGES + e] * lanes.beta);
     }
     for (int k = 0; k < SHARES; ++k)
         sum[k] = total[k];

@@ -39,6 +39,7 @@ static void shape_hit(const struct surface *surface, const struct sliding_shape 
     double r[3] = {x[0] - shape->centre[0], x[1] - shape->centre[1], x[2] - shape->centre[2]};
     double along = dot(r, shape->axis), side = definition->fluid_inside ? -1.0 : 1.0;
     hit->at.feature = PROJECTION_INTERIOR;
+    hit->at.closest[0] = hit->at.closest[1] = 0.0;
     if (definition->kind == SURFACE_PLANE) {
         hit->at.d = along;
         for (int k = 0; k < 3; ++k) {
@@ -67,29 +68,26 @@ size_t sliding_hits(const struct boundary *boundary, size_t near, const double x
     size_t n = 0;
     for (size_t c = s->candidate_start[near]; c < s->candidate_start[near + 1]; ++c) {
         const struct candidate *candidate = &s->candidates[c];
-        struct hit hit = {.facet = -1};
-        double at[3];
+        double at[3], shift[3];
         for (int k = 0; k < 3; ++k) {
-            hit.shift[k] = candidate->shift[k] * s->period[k];
-            at[k] = x[k] - hit.shift[k];
+            shift[k] = candidate->shift[k] * s->period[k];
+            at[k] = x[k] - shift[k];
         }
-        if ((size_t)candidate->item >= s->n_facets) {
-            hit.surface = candidate->item - (int32_t)s->n_facets;
-            shape_hit(boundary->surfaces[hit.surface], &s->shapes[hit.surface], at, &hit);
-            if (hit.at.distance < s->reach)
-                hits[n++] = hit;
-            continue;
-        }
-        const struct sliding_facet *facet = &s->facets[candidate->item];
-        hit.surface = facet->surface;
-        hit.facet = facet->facet;
-        for (int p = 0; p < facet->n_pieces; ++p) {
-            hit.piece = &s->pieces[facet->pieces + p];
-            if (hit.piece->n == 0 || fabs(piece_plane_distance(hit.piece, at)) >= s->reach)
+        const bool shape = (size_t)candidate->item >= s->n_facets;
+        const struct sliding_facet *facet = shape ? NULL : &s->facets[candidate->item];
+        for (int p = 0; p < (shape ? 1 : facet->n_pieces); ++p) {
+            struct hit *hit = &hits[n];
+            hit->piece = shape ? NULL : &s->pieces[facet->pieces + p];
+            hit->surface = shape ? candidate->item - (int32_t)s->n_facets : facet->surface;
+            hit->facet = shape ? -1 : facet->facet;
+            memcpy(hit->shift, shift, sizeof shift);
+            if (shape)
+                shape_hit(boundary->surfaces[hit->surface], &s->shapes[hit->surface], at, hit);
+            else if (hit->piece->n == 0 || fabs(piece_plane_distance(hit->piece, at)) >= s->reach)
                 continue;
-            projection_find(&hit.at, hit.piece, at, s->snap);
-            if (hit.at.distance < s->reach)
-                hits[n++] = hit;
+            else
+                projection_find(&hit->at, hit->piece, at, s->snap);
+            n += hit->at.distance < s->reach;
         }
     }
     return n;
