@@ -334,15 +334,22 @@ static int search_tile(const struct sliding *s, const struct fluid_view *view, c
         return 0;
     struct cell_range ranges[CELL_GRID_RANGES];
     size_t n_ranges = cell_grid_ranges(view->grid, place, radius, ranges);
-    CHECK(n_ranges < CELL_GRID_RANGES, STATUS_NUMERICAL,
-          "a wall facet of %g m is too large for the search for near particles: give smaller facets", radius);
+    if (n_ranges >= CELL_GRID_RANGES)
+        return work->quiet ? STATUS_NUMERICAL
+                           : error_report(STATUS_NUMERICAL,
+                                          "a wall facet of %g m is too large for the search for near "
+                                          "particles: give smaller facets",
+                                          radius);
     for (size_t r = 0; r < n_ranges; ++r) {
         int shift[3];
         for (int k = 0; k < 3; ++k) {
             shift[k] = s->period[k] > 0.0 ? (int)lround(-ranges[r].shift[k] / s->period[k]) : 0;
-            CHECK(shift[k] >= -1 && shift[k] <= 1, STATUS_NUMERICAL,
-                  "a wall facet at (%g, %g, %g) lies more than a period outside the domain", place[0],
-                  place[1], place[2]);
+            if (shift[k] < -1 || shift[k] > 1)
+                return work->quiet ? STATUS_NUMERICAL
+                                   : error_report(STATUS_NUMERICAL,
+                                                  "a wall facet at (%g, %g, %g) lies more than a period "
+                                                  "outside the domain",
+                                                  place[0], place[1], place[2]);
         }
         for (uint32_t j = ranges[r].begin; j < ranges[r].end; ++j) {
             double at[3];
@@ -360,7 +367,7 @@ static int search_tile(const struct sliding *s, const struct fluid_view *view, c
 
 /** Particles within @p reach of part @p part of @p n_parts of the facets; the pieces of a quad can note a
  * particle more than once. */
-static int search_facets(struct sliding *s, const struct fluid_view *view, size_t part, size_t n_parts,
+static int search_facets(const struct sliding *s, const struct fluid_view *view, size_t part, size_t n_parts,
                          double reach, struct sliding_work *work)
 {
     const size_t begin = s->n_facets * part / n_parts, end = s->n_facets * (part + 1) / n_parts;
@@ -550,7 +557,13 @@ static int sliding_list(struct boundary *boundary, const struct fluid_view *view
 #pragma omp parallel for schedule(static, 1) reduction(| : status)
     for (size_t t = 0; t < s->n_work; ++t) {
         s->work[t].n_pairs = 0;
+        s->work[t].quiet = true;
         status |= search_facets(s, view, t, s->n_work, reach, &s->work[t]);
+    }
+    /* what is wrong is told once, of the first facet: asked again in turn */
+    for (size_t t = 0; t < s->n_work && status; ++t) {
+        s->work[t].quiet = false;
+        CALL(search_facets(s, view, t, s->n_work, reach, &s->work[t]));
     }
     CALL(status);
     for (size_t k = 0; k < boundary->n_surfaces; ++k)

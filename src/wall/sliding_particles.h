@@ -105,6 +105,7 @@ struct sliding_work {
     size_t n_list, list_capacity;
     struct near_pair *pairs; /**< what this part of the search found */
     size_t n_pairs, pairs_capacity;
+    bool quiet; /**< the search does not report what is wrong */
 };
 
 struct sliding {

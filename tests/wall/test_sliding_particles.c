@@ -3,6 +3,7 @@
 #include "wall_scene.h"
 
 #include "base/error.h"
+#include "base/log.h"
 #include "wall/sliding_particles.h"
 
 #include <omp.h>
@@ -247,8 +248,15 @@ static void candidates_compare(const struct scene *scene, uint32_t i, const stru
     assert_int_equal(k, n);
 }
 
+static int messages;
+
+static void count_message(void)
+{
+    ++messages;
+}
+
 /** The search in tiles, by threads, finds what asking every facet does: a plane quad of many tiles and a
- * warped one, across periodic sides, a sliver, and a small facet. */
+ * warped one, across periodic sides, a sliver, and a small facet. Facets that have left are told of once. */
 static void test_search(void **state)
 {
     (void)state;
@@ -278,6 +286,14 @@ static void test_search(void **state)
     }
     assert_int_equal(near, scene.boundary->n_near);
     assert_true(most > 2);
+    for (size_t k = 0; k < scene.surface->n_points; ++k)
+        scene.surface->now.x[k][0] += 2.0 * s->period[0];
+    scene.boundary->moving = true;
+    messages = 0;
+    log_set_hook(count_message);
+    assert_int_equal(scene.boundary->type->list(scene.boundary, &scene.view), STATUS_NUMERICAL);
+    log_set_hook(NULL);
+    assert_int_equal(messages, 1); // by whatever number of threads
     scene_end(&scene);
 }
 
