@@ -16,10 +16,10 @@ struct point_array {
     size_t size; /**< of an entry */
 };
 
-/** Less than so many points or contacts are not worth more than one thread. */
-#define LEAST_SHARED 2000
-
-enum { POINT_ARRAYS = 19 + SURFACE_PARTS };
+enum {
+    POINT_ARRAYS = 19 + SURFACE_PARTS,
+    LEAST_SHARED = 2000 /**< fewer points or contacts are not worth more than one thread */
+};
 
 /** Every one of them, so that none is forgotten when they are made, grow or go. */
 static void point_arrays(struct surface *s, struct point_array arrays[POINT_ARRAYS])

@@ -34,7 +34,8 @@ struct added_mass_contact {
     double damping;             /**< D, kg/s */
 };
 
-/** Threads add to as many parts side by side (surface_sum_parts), at any number of threads alike. */
+/** What is spread over the points of a surface is added up in so many parts, which threads fill side by side
+ * (surface_sum_parts): as many with one thread as with any number, so that the sums are the same. */
 enum { SURFACE_PARTS = 8 };
 
 /** The only thing fluid and solid share: points, optionally facets or an analytic shape, their motion at the

@@ -26,8 +26,9 @@ static const double long_w[LONG_POINTS] = {
     0.18945061045506847,  0.18260341504492361,  0.16915651939500256,  0.14959598881657682,
     0.12462897125553395,  0.095158511682492897, 0.062253523938647776, 0.027152459411754058};
 
-/** Angles of the directions (x, y), as atan2 to rounding: the quotient, or its tangent of the difference from
- * pi/4, is below tan(pi/8), where a rational approximation (coefficients of Cephes, S. Moshier) holds. */
+/** Angles of the directions (x, y), as atan2 to rounding: the angle from the nearer axis or, where that is
+ * smaller, from the diagonal has a tangent below tan(pi/8), where a rational approximation (coefficients of
+ * Cephes, S. Moshier) holds. */
 SWEEP_INLINE void angles(const double *y, const double *x, double *angle)
 {
 #pragma omp simd

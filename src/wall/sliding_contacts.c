@@ -62,6 +62,17 @@ static void shape_hit(const struct surface *surface, const struct sliding_shape 
         hit->place[k] += hit->shift[k];
 }
 
+/** A hit that is yet to be found. */
+static struct hit *hit_start(struct hit *hit, const struct piece *piece, int32_t surface, int32_t facet,
+                             const double shift[3])
+{
+    hit->piece = piece;
+    hit->surface = surface;
+    hit->facet = facet;
+    memcpy(hit->shift, shift, sizeof hit->shift);
+    return hit;
+}
+
 size_t sliding_hits(const struct boundary *boundary, size_t near, const double x[3], struct hit *hits)
 {
     const struct sliding *s = boundary->data;
@@ -73,20 +84,19 @@ size_t sliding_hits(const struct boundary *boundary, size_t near, const double x
             shift[k] = candidate->shift[k] * s->period[k];
             at[k] = x[k] - shift[k];
         }
-        const bool shape = (size_t)candidate->item >= s->n_facets;
-        const struct sliding_facet *facet = shape ? NULL : &s->facets[candidate->item];
-        for (int p = 0; p < (shape ? 1 : facet->n_pieces); ++p) {
-            struct hit *hit = &hits[n];
-            hit->piece = shape ? NULL : &s->pieces[facet->pieces + p];
-            hit->surface = shape ? candidate->item - (int32_t)s->n_facets : facet->surface;
-            hit->facet = shape ? -1 : facet->facet;
-            memcpy(hit->shift, shift, sizeof shift);
-            if (shape)
-                shape_hit(boundary->surfaces[hit->surface], &s->shapes[hit->surface], at, hit);
-            else if (hit->piece->n == 0 || fabs(piece_plane_distance(hit->piece, at)) >= s->reach)
+        if ((size_t)candidate->item >= s->n_facets) {
+            struct hit *hit = hit_start(&hits[n], NULL, candidate->item - (int32_t)s->n_facets, -1, shift);
+            shape_hit(boundary->surfaces[hit->surface], &s->shapes[hit->surface], at, hit);
+            n += hit->at.distance < s->reach;
+            continue;
+        }
+        const struct sliding_facet *facet = &s->facets[candidate->item];
+        for (int p = 0; p < facet->n_pieces; ++p) {
+            const struct piece *piece = &s->pieces[facet->pieces + p];
+            if (piece->n == 0 || fabs(piece_plane_distance(piece, at)) >= s->reach)
                 continue;
-            else
-                projection_find(&hit->at, hit->piece, at, s->snap);
+            struct hit *hit = hit_start(&hits[n], piece, facet->surface, facet->facet, shift);
+            projection_find(&hit->at, piece, at, s->snap);
             n += hit->at.distance < s->reach;
         }
     }
