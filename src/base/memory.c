@@ -8,11 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
-enum { ALIGNMENT = 64 };  // a cache line and the widest vector register
-enum { LARGE = 1 << 18 }; // bytes from which a block is worth asking for large pages
+enum { ALIGNMENT = 64 }; // a cache line and the widest vector register
 
 // Bytes of count items, at least one and a multiple of the alignment; 0 when they cannot be addressed.
 static size_t padded_size(size_t count, size_t size)
@@ -24,20 +21,6 @@ static size_t padded_size(size_t count, size_t size)
     return bytes ? (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT : ALIGNMENT;
 }
 
-// Ask for large pages: walls and lists jump about in their arrays, and looking up small pages for them takes
-// a tenth of a run. Where the system has none, small ones do.
-static void advise_large_pages(void *memory, size_t bytes)
-{
-#ifdef MADV_HUGEPAGE
-    const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE),
-                    start = ((uintptr_t)memory + page - 1) / page * page;
-
-    madvise((void *)start, ((uintptr_t)memory + bytes - start) / page * page, MADV_HUGEPAGE);
-#else
-    (void)memory, (void)bytes;
-#endif
-}
-
 void *memory_create(size_t count, size_t size)
 {
     const size_t bytes = padded_size(count, size);
@@ -47,8 +30,6 @@ void *memory_create(size_t count, size_t size)
         error_report(STATUS_MEMORY, "out of memory: cannot get %zu items of %zu bytes", count, size);
         return NULL;
     }
-    if (bytes >= LARGE)
-        advise_large_pages(memory, bytes);
     return memset(memory, 0, bytes);
 }
 

@@ -9,11 +9,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include <inttypes.h>
-#include <stdbool.h>
-#include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 static void create_gives_aligned_zeroes(void **state)
 {
@@ -78,41 +74,6 @@ static void grow_gives_memory_for_nothing(void **state)
     memory_free(memory);
 }
 
-/** Whether the mapping of @p address may have large pages, by Linux's own account; -1 if it gives none. */
-static int has_large_pages(const void *address)
-{
-    FILE *file = fopen("/proc/self/smaps", "r");
-    char line[512];
-    bool here = false;
-    int found = -1;
-
-    while (file && found < 0 && fgets(line, sizeof line, file)) {
-        uintptr_t lower, upper;
-        if (sscanf(line, "%" SCNxPTR "-%" SCNxPTR " ", &lower, &upper) == 2)
-            here = (uintptr_t)address >= lower && (uintptr_t)address < upper;
-        else if (here && strncmp(line, "VmFlags:", 8) == 0)
-            found = strstr(line, " hg") != NULL;
-    }
-    if (file)
-        fclose(file);
-    return found;
-}
-
-static void create_asks_for_large_pages_where_they_pay(void **state)
-{
-    (void)state;
-    if (access("/sys/kernel/mm/transparent_hugepage", F_OK) != 0)
-        skip();
-    double *large = memory_create(700001, sizeof *large);
-    char *small = memory_create(1021, 1);
-    assert_int_equal(has_large_pages(&large[350000]), 1);
-    assert_true(has_large_pages(small) <= 0);
-    for (size_t i = 0; i < 700001; i++)
-        assert_true(large[i] == 0.0);
-    memory_free(small);
-    memory_free(large);
-}
-
 static void text_and_print_copy(void **state)
 {
     char original[] = "beam";
@@ -148,7 +109,6 @@ int main(void)
         cmocka_unit_test(create_refuses_what_cannot_be_addressed),
         cmocka_unit_test(grow_keeps_and_zeroes),
         cmocka_unit_test(grow_gives_memory_for_nothing),
-        cmocka_unit_test(create_asks_for_large_pages_where_they_pay),
         cmocka_unit_test(text_and_print_copy),
         cmocka_unit_test(check_returns_the_status),
     };
