@@ -120,6 +120,19 @@ static double hit_angle(const struct hit *hit)
     return hit->piece ? projection_angle(&hit->at, hit->piece) : 1.0;
 }
 
+/** How far apart edges may be that are one: a quad that is nearly plane counts as plane. */
+static double edges_apart(const struct sliding *sliding)
+{
+    return 2.0 * sliding->flat;
+}
+
+/** Whether the other facets that meet at the closest point are hits, too: just within reach they may not be,
+ * and one facet alone does not tell where the solid is. */
+static bool others_in_reach(const struct sliding *sliding, const struct hit *hit)
+{
+    return hit->at.feature == PROJECTION_INTERIOR || hit->at.distance + edges_apart(sliding) < sliding->reach;
+}
+
 bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t n, const double x[3],
                         double c[3], double normal[3], size_t *nearest)
 {
@@ -134,9 +147,10 @@ bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t 
     memcpy(c, hits[best].place, 3 * sizeof *c);
     for (int k = 0; k < 3; ++k)
         normal[k] = hit_angle(&hits[best]) * hits[best].normal[k];
-    /* a quad that is nearly plane counts as plane: edges that are one may be this far apart, and a facet
-     * beside its edge be nearer than the edge by as much */
-    const double apart = 2.0 * sliding->flat, around = apart + sqrt(2.0 * apart * hits[best].at.distance);
+    if (!others_in_reach(sliding, &hits[best]))
+        return false;
+    /* a facet beside its edge may be nearer than the edge by as much as edges are apart */
+    const double apart = edges_apart(sliding), around = apart + sqrt(2.0 * apart * hits[best].at.distance);
     for (size_t h = 0; h < n && hits[best].at.feature != PROJECTION_INTERIOR; ++h) {
         if (h == best || hits[h].at.distance > hits[best].at.distance + apart)
             continue;
@@ -252,7 +266,7 @@ static const struct hit *flat_wall(const struct boundary *boundary, const struct
         if (!best || hit->at.distance < best->at.distance)
             best = hit;
     }
-    return best;
+    return best && others_in_reach(s, best) ? best : NULL;
 }
 
 static void hit_shares(const struct sliding *s, const struct hit *hit, double share[SHARES])
