@@ -165,8 +165,8 @@ size_t sliding_hits(const struct boundary *boundary, size_t near, const double x
 void sliding_hit_place(struct hit *hit);
 
 /** Whether the place @p x lies inside the solid as the nearest of the @p n hits shows; then @p c is the
- * closest point,
- * @p normal the unit normal there (averaged at edges and nodes) and *@p nearest the hit. */
+ * closest point, @p normal the unit normal there (averaged at edges and nodes) and *@p nearest the hit.
+ * False, too, where an edge or node is nearest that lies at the end of the reach. */
 bool sliding_penetrated(const struct sliding *sliding, struct hit *hits, size_t n, const double x[3],
                         double c[3], double normal[3], size_t *nearest);
 
