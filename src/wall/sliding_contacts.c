@@ -79,18 +79,21 @@ size_t sliding_hits(const struct boundary *boundary, size_t near, const double x
     size_t n = 0;
     for (size_t c = s->candidate_start[near]; c < s->candidate_start[near + 1]; ++c) {
         const struct candidate *candidate = &s->candidates[c];
+        const size_t item = (size_t)candidate->item;
+        const int32_t *image =
+            item < s->n_facets ? s->facets[item].image : s->shapes[item - s->n_facets].image;
         double at[3], shift[3];
         for (int k = 0; k < 3; ++k) {
-            shift[k] = candidate->shift[k] * s->period[k];
+            shift[k] = (image[k] + candidate->shift[k]) * s->period[k];
             at[k] = x[k] - shift[k];
         }
-        if ((size_t)candidate->item >= s->n_facets) {
-            struct hit *hit = hit_start(&hits[n], NULL, candidate->item - (int32_t)s->n_facets, -1, shift);
+        if (item >= s->n_facets) {
+            struct hit *hit = hit_start(&hits[n], NULL, (int32_t)(item - s->n_facets), -1, shift);
             shape_hit(boundary->surfaces[hit->surface], &s->shapes[hit->surface], at, hit);
             n += hit->at.distance < s->reach;
             continue;
         }
-        const struct sliding_facet *facet = &s->facets[candidate->item];
+        const struct sliding_facet *facet = &s->facets[item];
         for (int p = 0; p < facet->n_pieces; ++p) {
             const struct piece *piece = &s->pieces[facet->pieces + p];
             if (piece->n == 0 || fabs(piece_plane_distance(piece, at)) >= s->reach)

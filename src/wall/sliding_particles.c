@@ -267,7 +267,30 @@ void sliding_place(struct boundary *boundary, bool again)
     }
 }
 
-/** Note in @p work that particle @p j reaches @p item in the image @p shift. */
+/** Periods that bring @p middle into the domain: walls that drift leave it as often as they like. */
+static void image_find(const struct sliding *s, const struct cell_grid *grid, const double middle[3],
+                       int32_t image[3])
+{
+    for (int k = 0; k < 3; ++k)
+        image[k] = s->period[k] > 0.0 ? -(int32_t)floor((middle[k] - grid->lower[k]) / s->period[k]) : 0;
+}
+
+/** The same for the middle of every facet. */
+static void images_find(struct boundary *boundary, const struct cell_grid *grid)
+{
+    struct sliding *s = boundary->data;
+    for (size_t f = 0; f < s->n_facets; ++f) {
+        struct sliding_facet *facet = &s->facets[f];
+        const struct surface *surface = boundary->surfaces[facet->surface];
+        double middle[3] = {0.0, 0.0, 0.0};
+        for (int c = 0; c < facet->n_nodes; ++c)
+            for (int k = 0; k < 3; ++k)
+                middle[k] += surface->now.x[surface->nodes[facet->facet][c]][k] / facet->n_nodes;
+        image_find(s, grid, middle, facet->image);
+    }
+}
+
+/** Note in @p work that particle @p j reaches @p item in the image @p shift beside the item's. */
 static int add_pair(struct sliding_work *work, uint32_t j, int32_t item, const int shift[3])
 {
     CALL(memory_grow((void **)&work->pairs, &work->pairs_capacity, work->n_pairs + 1, sizeof *work->pairs));
@@ -333,23 +356,19 @@ static int search_tile(const struct sliding *s, const struct fluid_view *view, c
     if (projection.distance > radius)
         return 0;
     struct cell_range ranges[CELL_GRID_RANGES];
-    size_t n_ranges = cell_grid_ranges(view->grid, place, radius, ranges);
-    if (n_ranges >= CELL_GRID_RANGES)
-        return work->quiet ? STATUS_NUMERICAL
-                           : error_report(STATUS_NUMERICAL,
-                                          "a wall facet of %g m is too large for the search for near "
-                                          "particles: give smaller facets",
-                                          radius);
+    const size_t n_ranges = cell_grid_ranges(view->grid, place, radius, ranges);
     for (size_t r = 0; r < n_ranges; ++r) {
         int shift[3];
         for (int k = 0; k < 3; ++k) {
-            shift[k] = s->period[k] > 0.0 ? (int)lround(-ranges[r].shift[k] / s->period[k]) : 0;
+            shift[k] = s->period[k] > 0.0 ? (int)lround(-ranges[r].shift[k] / s->period[k]) -
+                                                s->facets[piece->facet].image[k]
+                                          : 0;
             if (shift[k] < -1 || shift[k] > 1)
                 return work->quiet ? STATUS_NUMERICAL
                                    : error_report(STATUS_NUMERICAL,
-                                                  "a wall facet at (%g, %g, %g) lies more than a period "
-                                                  "outside the domain",
-                                                  place[0], place[1], place[2]);
+                                                  "a wall facet at (%g, %g, %g) is too long for the period "
+                                                  "of %g m in direction %c: give smaller facets",
+                                                  place[0], place[1], place[2], s->period[k], "xyz"[k]);
         }
         for (uint32_t j = ranges[r].begin; j < ranges[r].end; ++j) {
             double at[3];
@@ -383,17 +402,21 @@ static int search_facets(const struct sliding *s, const struct fluid_view *view,
     return 0;
 }
 
-/** Image of an analytic surface that a particle at @p x is asked about: that nearest to the centre of a body
- * in the fluid. Returns the distance. */
+/** Whether periodic images of an analytic surface count: of bodies in the fluid, not of what bounds it. */
+static bool shape_repeats(const struct model_surface *definition)
+{
+    return definition->kind != SURFACE_PLANE && !definition->fluid_inside;
+}
+
+/** Distance of @p x from the image of an analytic surface whose centre is nearest; @p shift: that image. */
 static double sliding_shape_distance(const struct sliding *s, const struct sliding_shape *shape,
                                      const struct model_surface *definition, const double x[3], int shift[3])
 {
-    const bool images = definition->kind != SURFACE_PLANE && !definition->fluid_inside;
     double r[3], along = 0.0, r2 = 0.0;
     for (int k = 0; k < 3; ++k) {
         r[k] = x[k] - shape->centre[k];
         shift[k] = 0;
-        if (images && s->period[k] > 0.0) {
+        if (shape_repeats(definition) && s->period[k] > 0.0) {
             shift[k] = (int)lround(r[k] / s->period[k]);
             r[k] -= shift[k] * s->period[k];
         }
@@ -413,10 +436,12 @@ static int search_shape(struct boundary *boundary, const struct fluid_view *view
 {
     struct sliding *s = boundary->data;
     const struct model_surface *definition = boundary->surfaces[surface]->definition;
-    const struct sliding_shape *shape = &s->shapes[surface];
+    struct sliding_shape *shape = &s->shapes[surface];
     const double *const *x = (const double *const *)view->particles->x;
     const size_t n_particles = view->particles->n;
     CALL(memory_grow((void **)&s->count, &s->count_capacity, n_particles, sizeof *s->count));
+    if (shape_repeats(definition))
+        image_find(s, view->grid, shape->centre, shape->image);
 #pragma omp parallel for schedule(static)
     for (size_t j = 0; j < n_particles; ++j) {
         int shift[3];
@@ -430,8 +455,7 @@ static int search_shape(struct boundary *boundary, const struct fluid_view *view
         const double at[3] = {x[0][j], x[1][j], x[2][j]};
         sliding_shape_distance(s, shape, definition, at, shift);
         for (int k = 0; k < 3; ++k)
-            CHECK(shift[k] >= -1 && shift[k] <= 1, STATUS_NUMERICAL,
-                  "surface \"%s\" lies more than a period outside the domain", definition->name);
+            shift[k] -= shape->image[k];
         CALL(add_pair(work, (uint32_t)j, (int32_t)(s->n_facets + surface), shift));
     }
     return 0;
@@ -554,6 +578,7 @@ static int sliding_list(struct boundary *boundary, const struct fluid_view *view
     for (int k = 0; k < 3; ++k)
         s->period[k] = view->grid->periodic[k] ? view->grid->upper[k] - view->grid->lower[k] : 0.0;
     sliding_place(boundary, false);
+    images_find(boundary, view->grid);
 #pragma omp parallel for schedule(static, 1) reduction(| : status)
     for (size_t t = 0; t < s->n_work; ++t) {
         s->work[t].n_pairs = 0;

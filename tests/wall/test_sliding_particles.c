@@ -221,25 +221,29 @@ static bool facet_near(const struct sliding *s, size_t f, const double x[3], dou
 }
 
 /** Candidates of particle @p i that asking every facet in every image gives: all of those listed of it, and
- * no others. */
+ * no others. The facets lie @p drift periods from the domain. */
 static void candidates_compare(const struct scene *scene, uint32_t i, const struct candidate *listed,
-                               size_t n)
+                               size_t n, const int drift[3])
 {
     const struct sliding *s = scene->boundary->data;
     size_t k = 0;
     for (size_t f = 0; f < s->n_facets; ++f) {
         size_t images = 0;
         for (int code = 0; code < 27; ++code) {
-            const int shift[3] = {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
+            const int shift[3] = {code % 3 - 1 - drift[0], code / 3 % 3 - 1 - drift[1],
+                                  code / 9 - 1 - drift[2]};
             double at[3];
             for (int d = 0; d < 3; ++d)
                 at[d] = scene->particles->x[d][i] - shift[d] * s->period[d];
             if (!facet_near(s, f, at, s->reach + scene->view.skin))
                 continue;
             bool found = false;
-            for (size_t c = k; c < n && listed[c].item == (int32_t)f; ++c)
-                found |= listed[c].shift[0] == shift[0] && listed[c].shift[1] == shift[1] &&
-                         listed[c].shift[2] == shift[2];
+            for (size_t c = k; c < n && listed[c].item == (int32_t)f; ++c) {
+                bool equal = true;
+                for (int d = 0; d < 3; ++d)
+                    equal &= listed[c].shift[d] + s->facets[f].image[d] == shift[d];
+                found |= equal;
+            }
             assert_true(found);
             ++images;
         }
@@ -255,8 +259,16 @@ static void count_message(void)
     ++messages;
 }
 
+static void points_move(struct scene *scene, double scale, const double by[3])
+{
+    for (size_t p = 0; p < scene->surface->n_points; ++p)
+        for (int k = 0; k < 3; ++k)
+            scene->surface->now.x[p][k] = scale * scene->surface->now.x[p][k] + by[k];
+}
+
 /** The search in tiles, by threads, finds what asking every facet does: a plane quad of many tiles and a
- * warped one, across periodic sides, a sliver, and a small facet. Facets that have left are told of once. */
+ * warped one, across periodic sides, a sliver, and a small facet; also where they have drifted out of the
+ * domain. Facets that are too long are told of once. */
 static void test_search(void **state)
 {
     (void)state;
@@ -275,20 +287,30 @@ static void test_search(void **state)
     const struct sliding *s = scene.boundary->data;
     assert_int_equal(s->facets[0].n_pieces, 1);
     assert_int_equal(s->facets[1].n_pieces, 4);
-    size_t near = 0, most = 0;
-    for (uint32_t i = 0; i < scene.particles->n; ++i) {
-        const bool listed = near < scene.boundary->n_near && scene.boundary->near[near] == i;
-        const size_t first = listed ? s->candidate_start[near] : 0,
-                     n = listed ? s->candidate_start[near + 1] - first : 0;
-        candidates_compare(&scene, i, &s->candidates[first], n);
-        most = n > most ? n : most;
-        near += listed;
-    }
-    assert_int_equal(near, scene.boundary->n_near);
-    assert_true(most > 2);
-    for (size_t k = 0; k < scene.surface->n_points; ++k)
-        scene.surface->now.x[k][0] += 2.0 * s->period[0];
     scene.boundary->moving = true;
+    static const double drifts[3][3] = {{0.0, 0.0, 0.0}, {7.4, -3.0, 1.9}, {-12345.6, 0.3, 0.0}};
+    for (int drift = 0; drift < 3; ++drift) {
+        double by[3];
+        int periods[3];
+        for (int k = 0; k < 3; ++k) {
+            by[k] = s->period[k] * (drifts[drift][k] - (drift ? drifts[drift - 1][k] : 0.0));
+            periods[k] = (int)lround(drifts[drift][k]);
+        }
+        points_move(&scene, 1.0, by);
+        assert_int_equal(scene.boundary->type->list(scene.boundary, &scene.view), 0);
+        size_t near = 0, most = 0;
+        for (uint32_t i = 0; i < scene.particles->n; ++i) {
+            const bool listed = near < scene.boundary->n_near && scene.boundary->near[near] == i;
+            const size_t first = listed ? s->candidate_start[near] : 0,
+                         n = listed ? s->candidate_start[near + 1] - first : 0;
+            candidates_compare(&scene, i, &s->candidates[first], n, periods);
+            most = n > most ? n : most;
+            near += listed;
+        }
+        assert_int_equal(near, scene.boundary->n_near);
+        assert_true(most > 2);
+    }
+    points_move(&scene, 5.0, scene_zero);
     messages = 0;
     log_set_hook(count_message);
     assert_int_equal(scene.boundary->type->list(scene.boundary, &scene.view), STATUS_NUMERICAL);
@@ -373,6 +395,54 @@ static void test_rotating_circle(void **state)
     assert_true(fabs(moment[2]) > 1e-3);
     motion_reset(&definition->motion);
     scene_end(&scene);
+}
+
+/** A body that has drifted out of a periodic domain acts as one that has stayed: forces on the fluid, force
+ * and moment on the body. */
+static void test_drifted(void **state)
+{
+    (void)state;
+    static const double place[2] = {1.3, -0.7}, drift[2] = {7.0 * 16.0, -301.0 * 16.0};
+    for (int polygon = 0; polygon < 2; ++polygon) {
+        double total[2][3], force[2][3], moment[2][3];
+        for (int drifted = 0; drifted < 2; ++drifted) {
+            struct scene scene;
+            double centre[3] = {0.0, 0.0, 0.0};
+            for (int k = 0; k < 2; ++k)
+                centre[k] = place[k] + drifted * drift[k];
+            scene_start(&scene, 2, -8.0, 8.0, true);
+            for (int j = -8; j < 8; ++j)
+                for (int i = -8; i < 8; ++i)
+                    if (hypot(i + 0.5 - place[0], j + 0.5 - place[1]) > 6.4)
+                        scene_add(&scene, i + 0.5, j + 0.5, 0.0);
+            struct model_surface *definition = &scene.surface_definition;
+            if (polygon) { // counter-clockwise: the solid lies within
+                double points[12][3];
+                for (int k = 0; k < 12; ++k)
+                    memcpy(points[k],
+                           (double[3]){centre[0] + 6.0 * cos(PI * k / 6.0),
+                                       centre[1] + 6.0 * sin(PI * k / 6.0), 0.0},
+                           sizeof points[k]);
+                scene_chain(&scene, 12, (const double(*)[3])points, true);
+            } else {
+                definition->kind = SURFACE_CYLINDER;
+                definition->radius = 6.0;
+                memcpy(definition->centre, centre, sizeof centre);
+            }
+            scene_build(&scene, CORNERS_SHARES);
+            scene_fill(&scene);
+            scene_forces(&scene, total[drifted]);
+            surface_total_load(scene.surface, centre, force[drifted], moment[drifted]);
+            assert_true(scene.boundary->n_near > 40);
+            scene_end(&scene);
+        }
+        for (int k = 0; k < 3; ++k) {
+            assert_float_equal(total[1][k], total[0][k], 1e-10);
+            assert_float_equal(force[1][k], force[0][k], 1e-10);
+            assert_float_equal(moment[1][k], moment[0][k], 1e-8);
+        }
+        assert_true(fabs(total[0][0]) > 0.01 && fabs(moment[0][2]) > 0.01);
+    }
 }
 
 /** A closed cube with the fluid inside. */
@@ -887,15 +957,25 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat_is_paper), cmocka_unit_test(test_linear_fields),
-        cmocka_unit_test(test_conservation),  cmocka_unit_test(test_subdivision),
-        cmocka_unit_test(test_threads),       cmocka_unit_test(test_search),
-        cmocka_unit_test(test_circle),        cmocka_unit_test(test_rotating_circle),
-        cmocka_unit_test(test_turning),       cmocka_unit_test(test_periodic_plate),
-        cmocka_unit_test(test_added_mass),    cmocka_unit_test(test_put_back),
-        cmocka_unit_test(test_put_back_2d),   cmocka_unit_test(test_beyond_edge),
-        cmocka_unit_test(test_warped),        cmocka_unit_test(test_layers_are_blocks),
-        cmocka_unit_test(test_again),         cmocka_unit_test(test_one_dimension),
+        cmocka_unit_test(test_flat_is_paper),
+        cmocka_unit_test(test_linear_fields),
+        cmocka_unit_test(test_conservation),
+        cmocka_unit_test(test_subdivision),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_search),
+        cmocka_unit_test(test_circle),
+        cmocka_unit_test(test_rotating_circle),
+        cmocka_unit_test(test_drifted),
+        cmocka_unit_test(test_turning),
+        cmocka_unit_test(test_periodic_plate),
+        cmocka_unit_test(test_added_mass),
+        cmocka_unit_test(test_put_back),
+        cmocka_unit_test(test_put_back_2d),
+        cmocka_unit_test(test_beyond_edge),
+        cmocka_unit_test(test_warped),
+        cmocka_unit_test(test_layers_are_blocks),
+        cmocka_unit_test(test_again),
+        cmocka_unit_test(test_one_dimension),
         cmocka_unit_test(test_check),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
