@@ -36,9 +36,10 @@ static int report_divergence(const struct coupling *coupling, double t, double c
                  definition->force_tolerance, coupling->unit_of_force);
     return error_report(
         STATUS_NUMERICAL,
-        "the coupling did not converge at t = %g s: residual %g m/s after %d iterations%s%s; try "
-        "acceleration=\"added-mass\", a smaller step or more iterations",
-        t, coupling->residual, coupling->iterations, displacement, force);
+        "the coupling did not converge at t = %g s: residual %g m/s after %d iterations%s%s; try %sa "
+        "smaller step or more iterations",
+        t, coupling->residual, coupling->iterations, displacement, force,
+        coupling->added_mass ? "" : "acceleration=\"added-mass\", ");
 }
 
 static int iterate(struct coupling *coupling, double t, double dt)

@@ -180,6 +180,7 @@ static void test_limit(void **state)
     assert_int_equal(assembly_steps(&a, 1), STATUS_NUMERICAL);
     assembly_heard(said, sizeof said);
     assert_non_null(strstr(said, "after 3 iterations, change of the force "));
+    assert_non_null(strstr(said, "; try a smaller step or more iterations"));
     assert_non_null(strstr(said, "force-tolerance 1e-14 N/m"));
     assembly_reset(&a);
 }
