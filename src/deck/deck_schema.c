@@ -50,7 +50,9 @@ static const struct schema_attribute domain_attributes[] = {
     {"lower", SCHEMA_VECTOR, .required = true, .unit = "m", .doc = "lower corner"},
     {"upper", SCHEMA_VECTOR, .required = true, .unit = "m", .doc = "upper corner"},
     {"periodic", SCHEMA_CHOICES, .choices = "x|y|z", .fallback = "",
-     .doc = "directions in which the domain repeats"},
+     .doc =
+         "directions in which the domain repeats: particles come back through the other side, surfaces and "
+         "meshes keep their coordinates"},
     {"outside", SCHEMA_CHOICE, .choices = "stop|remove", .fallback = "stop",
      .doc =
          "what happens to a particle that leaves: the run stops with an error, or the particle is removed"},
