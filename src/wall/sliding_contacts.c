@@ -80,7 +80,7 @@ size_t sliding_hits(const struct boundary *boundary, size_t near, const double x
     for (size_t c = s->candidate_start[near]; c < s->candidate_start[near + 1]; ++c) {
         const struct candidate *candidate = &s->candidates[c];
         const size_t item = (size_t)candidate->item;
-        const int32_t *image =
+        const double *image =
             item < s->n_facets ? s->facets[item].image : s->shapes[item - s->n_facets].image;
         double at[3], shift[3];
         for (int k = 0; k < 3; ++k) {

@@ -269,10 +269,10 @@ void sliding_place(struct boundary *boundary, bool again)
 
 /** Periods that bring @p middle into the domain: walls that drift leave it as often as they like. */
 static void image_find(const struct sliding *s, const struct cell_grid *grid, const double middle[3],
-                       int32_t image[3])
+                       double image[3])
 {
     for (int k = 0; k < 3; ++k)
-        image[k] = s->period[k] > 0.0 ? -(int32_t)floor((middle[k] - grid->lower[k]) / s->period[k]) : 0;
+        image[k] = s->period[k] > 0.0 ? -floor((middle[k] - grid->lower[k]) / s->period[k]) : 0.0;
 }
 
 /** The same for the middle of every facet. */
@@ -360,9 +360,10 @@ static int search_tile(const struct sliding *s, const struct fluid_view *view, c
     for (size_t r = 0; r < n_ranges; ++r) {
         int shift[3];
         for (int k = 0; k < 3; ++k) {
-            shift[k] = s->period[k] > 0.0 ? (int)lround(-ranges[r].shift[k] / s->period[k]) -
-                                                s->facets[piece->facet].image[k]
-                                          : 0;
+            shift[k] =
+                s->period[k] > 0.0
+                    ? (int)lround(-ranges[r].shift[k] / s->period[k] - s->facets[piece->facet].image[k])
+                    : 0;
             if (shift[k] < -1 || shift[k] > 1)
                 return work->quiet ? STATUS_NUMERICAL
                                    : error_report(STATUS_NUMERICAL,
@@ -455,7 +456,7 @@ static int search_shape(struct boundary *boundary, const struct fluid_view *view
         const double at[3] = {x[0][j], x[1][j], x[2][j]};
         sliding_shape_distance(s, shape, definition, at, shift);
         for (int k = 0; k < 3; ++k)
-            shift[k] -= shape->image[k];
+            shift[k] -= (int)shape->image[k];
         CALL(add_pair(work, (uint32_t)j, (int32_t)(s->n_facets + surface), shift));
     }
     return 0;

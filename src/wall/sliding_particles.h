@@ -84,14 +84,14 @@ struct sliding_facet {
     int32_t surface, facet; /**< number in the surface */
     int32_t pieces;         /**< where its pieces start (room for one, a quad for four) */
     int32_t n_pieces, n_nodes;
-    int32_t image[3]; /**< periods that bring its middle into the domain; set by the search */
+    double image[3]; /**< whole periods that bring its middle into the domain; set by the search */
 };
 
 /** An analytic surface as it stands now. */
 struct sliding_shape {
     double centre[3], axis[3];
     struct motion_frame frame;
-    int32_t image[3]; /**< as of a facet */
+    double image[3]; /**< as of a facet */
 };
 
 /** Room for one particle; in the making each touch is a contact of its own, number k of both. */
