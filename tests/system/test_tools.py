@@ -196,6 +196,15 @@ class Files(unittest.TestCase):
 
 
 class Figures(unittest.TestCase):
+    def test_repeats_have_smaller_steps(self):
+        deck = b'<time end="end" step="min(0.25*dx/c,1)"/><fluid step="2"/>'
+        run = validate.Run("taylor-couette", "--facets", 48, repeat=3)
+        self.assertEqual(run.name, "taylor-couette-facets-48-repeat-3")
+        self.assertEqual(run._repeated(deck), b'<time end="end" step="0.991*min(0.25*dx/c,1)"/><fluid step="2"/>')
+        self.assertEqual(validate.Run("taylor-couette")._repeated(deck), deck)
+        with self.assertRaisesRegex(validate.Failed, "repeat-3: cannot be repeated, its deck has no step"):
+            run._repeated(b'<time end="end"/>')
+
     def test_asymmetry_of_a_ring(self):
         rows = [(1.21, 1.0, 0.5), (1.22, 3.0, -0.5), (1.31, 7.0, 0.0)]
         scatter, radial = validate.couette_asymmetry(rows, 0.05)
